@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "core/platform.h"
+
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <system_error>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace ltc::platform {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void throw_io(std::string_view what, const fs::path& path, int error) {
+  throw IoError(fmt::format("{} {}: {}", what, path.string(), std::strerror(error)));
+}
+
+// fsync by name: a file's content, or a folder's list of names.
+void flush_to_disk(const fs::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0)
+    throw_io("cannot open", path, errno);
+  const int failed = ::fsync(descriptor);
+  const int error = errno;
+  ::close(descriptor);
+  // Some file systems cannot flush a folder; that is no reason to refuse the file.
+  if (failed && !(flags & O_DIRECTORY && error == EINVAL))
+    throw_io("cannot flush", path, error);
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// Unique to this process, so that two runs in one folder never share a temporary file.
+fs::path temporary_beside(const fs::path& path) {
+  return folder_of(path) / fmt::format(".{}.{}.tmp", path.filename().string(), ::getpid());
+}
+
+void (*interrupt_handler)() = nullptr;
+
+extern "C" void handle_signal(int) {
+  if (interrupt_handler)
+    interrupt_handler();
+}
+
+}  // namespace
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  const fs::path temporary = temporary_beside(path);
+  try {
+    write(temporary);
+    flush_to_disk(temporary, O_RDONLY);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0)
+      throw_io("cannot write", path, errno);
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+  flush_to_disk(folder_of(path), O_RDONLY | O_DIRECTORY);
+}
+
+void require_writable_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw IoError(fmt::format("output folder {} is a file; name a folder", folder.string()));
+  fs::create_directories(folder, error);
+  if (error)
+    throw IoError(fmt::format("cannot create output folder {}: {}", folder.string(), error.message()));
+  const fs::path probe = temporary_beside(folder / "probe");
+  const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (descriptor < 0)
+    throw_io("cannot write into output folder", folder, errno);
+  ::close(descriptor);
+  ::unlink(probe.c_str());
+}
+
+void on_interrupt(void (*handler)()) {
+  interrupt_handler = handler;
+  struct sigaction action {};
+  action.sa_handler = handle_signal;
+  // SA_RESETHAND: a second signal finds the default action, for the impatient.
+  action.sa_flags = SA_RESETHAND | SA_RESTART;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+bool standard_error_is_terminal() { return ::isatty(STDERR_FILENO) != 0; }
+
+std::size_t terminal_columns() {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    return size.ws_col;
+  return 80;
+}
+
+std::size_t peak_memory_bytes() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0)
+    return 0;
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+double processor_seconds() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0)
+    return 0;
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::string utc_now_iso8601() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", fmt::gmtime(std::time(nullptr)));
+}
+
+}  // namespace ltc::platform

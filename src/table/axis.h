@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// One axis of a table: its nodes, and the warp that makes interpolation linear between them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ltc {
+
+// How the interpolation coordinate u follows from x = (value - first)/(last - first).
+enum class Warp {
+  linear,           // u = x
+  sqrt,             // u = sqrt(x): nodes dense near `first`
+  complement_sqrt,  // u = 1 - sqrt(1 - x): nodes dense near `last`
+};
+
+// "linear", "sqrt", "complement-sqrt", as in files. Throws InputError on another name.
+std::string_view warp_name(Warp warp);
+Warp warp_from_name(std::string_view name);
+
+struct Axis {
+  std::vector<double> nodes;  // strictly increasing
+  Warp warp = Warp::linear;
+
+  // `count` >= 1 nodes from first to last, at u = i/(count - 1). One node stands at `first`.
+  static Axis make(double first, double last, std::size_t count, Warp warp);
+
+  std::size_t size() const { return nodes.size(); }
+  double first() const { return nodes.front(); }
+  double last() const { return nodes.back(); }
+
+  // Interpolation coordinate of a value, clamped to [0, 1]; and its inverse.
+  double coordinate(double value) const;
+  double value(double coordinate) const;
+
+  bool operator==(const Axis&) const = default;
+};
+
+}  // namespace ltc

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The four axes of a table and the lobe that stands at each node.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "brdf/ggx.h"
+#include "table/axis.h"
+
+namespace ltc {
+
+// Node of a grid, in the order of the files: alpha, lambda, theta, phi.
+struct NodeIndex {
+  std::size_t alpha = 0, lambda = 0, theta = 0, phi = 0;
+  bool operator==(const NodeIndex&) const = default;
+};
+
+// Axes: alpha is the larger roughness, lambda the ratio of the smaller to the larger, theta and phi
+// the view direction in radians. alpha_x = max(alpha, alpha_min), alpha_y = max(lambda alpha,
+// alpha_min).
+struct Grid {
+  Axis alpha, lambda, theta, phi;
+  double alpha_min = 1e-4;
+
+  // The paper's grid: alpha and lambda on [0, 1], theta on [0, 0.9999 pi/2], phi on [0, pi/2], all
+  // linear with `nodes_per_axis` nodes.
+  static Grid paper(std::size_t nodes_per_axis = 8);
+
+  std::size_t size() const { return alpha.size() * lambda.size() * theta.size() * phi.size(); }
+  std::array<std::size_t, 4> shape() const {
+    return {alpha.size(), lambda.size(), theta.size(), phi.size()};
+  }
+
+  // Flat index of a node in C order (phi fastest), and back.
+  std::size_t flat(const NodeIndex& node) const;
+  NodeIndex node(std::size_t flat) const;
+
+  GgxLobe lobe(const NodeIndex& node) const;
+
+  bool operator==(const Grid&) const = default;
+};
+
+}  // namespace ltc

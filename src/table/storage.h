@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What a table interpolates, and how the matrix of a query is had from it (docs: table format).
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+
+#include "brdf/ggx.h"
+
+namespace ltc {
+
+// With A = diag(alpha_x, alpha_y, 1) of the query and S the stored (interpolated) matrix:
+enum class Storage {
+  matrix,            // M = S, the published table's
+  roughness_scaled,  // M = S A
+  mirror_frame,      // M = Q S A, Q = mirror_rotation(omega_v)
+};
+
+// "matrix", "roughness-scaled", "mirror-frame", as in files. Throws InputError on another name.
+std::string_view storage_name(Storage storage);
+Storage storage_from_name(std::string_view name);
+
+// The least rotation from z to the mirror direction (-vx, -vy, vz) of a unit view direction, vz > -1.
+Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v);
+
+// M of a lobe from the stored S, and S from M. Neither normalises.
+Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& stored,
+                                   const GgxLobe& lobe);
+Eigen::Matrix3d stored_from_matrix(Storage storage, const Eigen::Matrix3d& matrix,
+                                   const GgxLobe& lobe);
+
+}  // namespace ltc

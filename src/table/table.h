@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// A table in memory: all that its files hold.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "table/grid.h"
+#include "table/storage.h"
+
+namespace ltc {
+
+enum class Status : std::uint8_t {
+  skipped = 0,   // not needed; its values are NaN
+  fitted = 1,    // fitted by the solver
+  copied = 2,    // copied, rotated or mirrored from an entry that symmetry makes equal
+  analytic = 3,  // closed form
+  failed = 4,    // the solver found no finite matrix; its values are NaN
+};
+
+struct Table {
+  Grid grid;
+  Storage storage = Storage::matrix;
+  std::string brdf = "ggx";
+  std::uint64_t seed = 0;
+  std::string config;     // the full effective TOML
+  std::string generator;  // program, version, commit
+  std::string created;    // UTC, ISO 8601
+
+  // One value (nine for `stored`, row-major) an entry, in the grid's C order.
+  std::vector<float> stored;     // S, third column of unit length; M itself with Storage::matrix
+  std::vector<float> amplitude;  // integral of rho cos(theta_l) with F = 1
+  std::vector<float> fresnel;    // integral of (1 - v.h)^5 rho cos(theta_l)
+  std::vector<float> sw_loss;    // sliced-Wasserstein loss of the stored matrix
+  std::vector<Status> status;
+  std::vector<std::uint16_t> iterations;  // optimiser steps spent
+
+  // All arrays sized for the grid, every value NaN and every status `skipped`.
+  static Table empty(const Grid& grid, Storage storage);
+
+  Eigen::Matrix3d stored_at(std::size_t flat) const;
+  void set_stored(std::size_t flat, const Eigen::Matrix3d& stored);
+  // M of the node, whatever the storage.
+  Eigen::Matrix3d matrix_at(std::size_t flat) const;
+};
+
+}  // namespace ltc
