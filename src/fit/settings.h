@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What the config's [fit] section says.
+#pragma once
+
+#include <cstdint>
+
+namespace ltc {
+
+enum class SolverKind { gauss_newton, sgd };   // "gauss-newton", "sgd"
+enum class TargetKind { weighted, rejection };  // "weighted", "rejection"
+enum class StartKind { first_order, identity, random };  // "first-order", "identity", "random"
+
+// Quantile Gauss-Newton, from a coarse sample set to a fine one.
+struct GaussNewtonSettings {
+  int coarse_samples = 256;    // cosine samples of the coarse phase, [64, 65536]
+  int coarse_directions = 16;  // projection directions of the coarse phase, [4, 4096]
+  int coarse_steps = 12;       // most steps of the coarse phase, [0, 1000]
+  int samples = 1024;          // cosine samples of the fine phase, [64, 65536]
+  int directions = 32;         // projection directions of the fine phase, [4, 4096]
+  int steps = 6;               // most steps of the fine phase, [1, 1000]
+  int target_samples = 4096;   // GGX samples that the target's quantiles come from, [64, 1048576]
+  int starts = 2;              // starting points tried in the coarse phase, [1, 16]
+  int neighbour_sweeps = 1;    // how often an entry tries its neighbours' solutions, [0, 16]
+};
+
+// Algorithm 3 of Aakash et al. 2022: stochastic gradient descent, step size
+// learning_rate * step_scale * step_decay^step.
+struct SgdSettings {
+  int steps = 10000;           // [1, 10000000]
+  int samples = 2048;          // cosine and GGX samples of a step, [16, 1048576]
+  int directions = 64;         // random directions of a step, [1, 4096]
+  double learning_rate = 1.0;  // (0, 1000]
+  double step_scale = 0.1;     // (0, 1000]
+  double step_decay = 0.999;   // (0, 1]
+  StartKind start = StartKind::identity;
+  // Descend in the entries of M as published (false), or in those of M expressed in the mirror's
+  // frame and divided by the roughness (true), where lobes of every width have the same scale.
+  bool scaled_variables = false;
+};
+
+struct FitSettings {
+  SolverKind solver = SolverKind::gauss_newton;
+  TargetKind target = TargetKind::weighted;
+  std::uint64_t seed = 1;
+  GaussNewtonSettings gauss_newton;
+  SgdSettings sgd;
+};
+
+}  // namespace ltc

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The whole pipeline: nodes, fit, align, post-process. Writing files is src/export's.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/config.h"
+#include "core/progress.h"
+#include "table/table.h"
+
+namespace ltc {
+
+struct GenerateReport {
+  std::vector<std::pair<std::string, double>> stage_seconds;  // in order
+  double largest_zeroed = 0;    // largest |entry| that equation (16) set to zero, unit third column
+  std::size_t largest_zeroed_entry = 0;  // where
+};
+
+// Makes the table of `config` with `threads` >= 1 OpenMP threads; the same bits for any number.
+// Throws InputError for a config that cannot be met, Interrupted when progress asked for a stop.
+Table generate_table(const Config& config, int threads, Progress* progress, GenerateReport* report);
+
+}  // namespace ltc
