@@ -3,7 +3,11 @@
 // The effective configuration of a run: defaults, then a TOML file, then --set key=value.
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "fit/settings.h"
 #include "table/grid.h"
@@ -17,6 +21,7 @@ struct OutputSettings {
   bool exr = true;
   bool npy = true;
   bool exr_half = false;  // 16-bit textures instead of 32-bit
+  bool operator==(const OutputSettings&) const = default;
 };
 
 struct Config {
@@ -26,5 +31,27 @@ struct Config {
   FitSettings fit;
   OutputSettings output;
 };
+
+// The defaults, then what `file` says if there is one, then the overrides in order, each
+// "key=value": the value as in TOML, or a bare string where that is not TOML. Throws InputError for
+// an unknown key, a wrong type, a value out of range or broken syntax (one line: where it was
+// said, the key, the value, what is allowed), IoError for a file that cannot be read.
+Config load_config(const std::optional<std::filesystem::path>& file,
+                   std::span<const std::string> overrides);
+
+// Every key with its value, as TOML that load_config reads back to the same Config, bit for bit.
+// (To the last bit only if the angles are those of some number of degrees, as those of every config
+// that load_config returns are.)
+std::string to_toml(const Config& config);
+
+// What can be configured, in the order of the file; see src/config/registry.cpp, where keys are
+// added.
+struct ConfigKey {
+  std::string name;           // dotted: "fit.sgd.steps"
+  std::string allowed;        // "a whole number in [1, 10000000]"
+  std::string summary;        // one line
+  std::string default_value;  // as TOML
+};
+std::vector<ConfigKey> config_keys();
 
 }  // namespace ltc

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "config/config.h"
+
+#include <fmt/format.h>
+
+#include "config/draft.h"
+#include "config/reader.h"
+#include "config/registry.h"
+#include "core/error.h"
+
+namespace ltc {
+namespace {
+
+using config::AxisSettings;
+using config::Draft;
+
+void check_axis(const std::string& section, const std::string& unit, const AxisSettings& axis,
+                const config::Sources& sources) {
+  if (axis.nodes == 1 || axis.first < axis.last)
+    return;
+  const std::string first = section + ".first" + unit, last = section + ".last" + unit;
+  throw InputError(fmt::format("{}: {} = {} does not lie below {} = {}; expected {} below {}{}",
+                               config::latest_source(sources, {first, last}), first, axis.first,
+                               last, axis.last, first, last, ", or one node"));
+}
+
+// What no single key can tell.
+void check_together(const Draft& draft, const config::Sources& sources) {
+  check_axis("table.alpha", "", draft.alpha, sources);
+  check_axis("table.lambda", "", draft.lambda, sources);
+  check_axis("table.theta", "_degrees", draft.theta_degrees, sources);
+  check_axis("table.phi", "_degrees", draft.phi_degrees, sources);
+  const OutputSettings& output = draft.config.output;
+  if (!output.hdf5 && !output.exr && !output.npy)
+    throw InputError(fmt::format(
+        "{}: output.hdf5, output.exr and output.npy are all false; expected at least one true",
+        config::latest_source(sources, {"output.hdf5", "output.exr", "output.npy"})));
+}
+
+}  // namespace
+
+Config load_config(const std::optional<std::filesystem::path>& file,
+                   std::span<const std::string> overrides) {
+  Draft draft = config::draft_of(Config{});
+  config::Sources sources;
+  if (file)
+    config::read_file(*file, draft, sources);
+  for (const std::string& override : overrides)
+    config::read_override(override, draft, sources);
+  check_together(draft, sources);
+  return config::config_of(draft);
+}
+
+std::string to_toml(const Config& config) {
+  const Draft draft = config::draft_of(config);
+  std::string text, section;
+  for (const config::Key& key : config::keys()) {
+    const std::size_t dot = key.name.rfind('.');
+    if (const std::string own = key.name.substr(0, dot); own != section) {
+      text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", own);
+      section = own;
+    }
+    text += fmt::format("{} = {}\n", key.name.substr(dot + 1), config::toml_of(key.get(draft)));
+  }
+  return text;
+}
+
+std::vector<ConfigKey> config_keys() {
+  const Draft defaults = config::draft_of(Config{});
+  std::vector<ConfigKey> result;
+  for (const config::Key& key : config::keys())
+    result.push_back({key.name, key.allowed, key.summary, config::toml_of(key.get(defaults))});
+  return result;
+}
+
+}  // namespace ltc

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "config/registry.h"
+
+namespace ltc::config {
+namespace {
+
+constexpr double most_seed = 9007199254740992;  // 2^53: exact wherever JSON or a double carries it
+
+// The four keys of an axis; angles carry their unit in the name.
+template <typename Member>
+std::vector<Key> axis_keys(std::string section, Member axis, std::string_view unit, Range range) {
+  const Choices<Warp> warps = {{warp_name(Warp::linear), Warp::linear},
+                               {warp_name(Warp::sqrt), Warp::sqrt},
+                               {warp_name(Warp::complement_sqrt), Warp::complement_sqrt}};
+  section = "table." + section + ".";
+  return {
+      key(
+          section + "first" + std::string(unit), [=](Draft& d) { return &axis(d)->first; }, range,
+          "value of the first node"),
+      key(
+          section + "last" + std::string(unit), [=](Draft& d) { return &axis(d)->last; }, range,
+          "value of the last node"),
+      key(
+          section + "nodes", [=](Draft& d) { return &axis(d)->nodes; }, Range{1, 64},
+          "number of nodes; one node stands at the first value"),
+      key(
+          section + "warp", [=](Draft& d) { return &axis(d)->warp; }, warps,
+          "where the nodes are dense: linear nowhere, sqrt near first, complement-sqrt near last"),
+  };
+}
+
+// clang-format off
+std::vector<Key> table_keys() {
+  const Choices<Storage> storages = {
+      {storage_name(Storage::matrix), Storage::matrix},
+      {storage_name(Storage::roughness_scaled), Storage::roughness_scaled},
+      {storage_name(Storage::mirror_frame), Storage::mirror_frame}};
+  std::vector<Key> all = {
+      key("table.brdf", [](Draft& d) { return &d.config.brdf; }, Choices<std::string>{{"ggx", "ggx"}}, "the BRDF that is fitted"),
+      key("table.storage", [](Draft& d) { return &d.config.storage; }, storages, "what the table holds and a reader interpolates"),
+      key("table.alpha_min", [](Draft& d) { return &d.config.grid.alpha_min; }, Range{1e-6, 1}, "least roughness: smaller alpha_x and alpha_y are raised to it"),
+  };
+  const auto add = [&](const std::vector<Key>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add(axis_keys("alpha", [](Draft& d) { return &d.alpha; }, "", {0, 1}));
+  add(axis_keys("lambda", [](Draft& d) { return &d.lambda; }, "", {0, 1}));
+  add(axis_keys("theta", [](Draft& d) { return &d.theta_degrees; }, "_degrees", below(0, 90)));
+  add(axis_keys("phi", [](Draft& d) { return &d.phi_degrees; }, "_degrees", {0, 90}));
+  return all;
+}
+
+std::vector<Key> fit_keys() {
+  const Choices<SolverKind> solvers = {{"gauss-newton", SolverKind::gauss_newton}, {"sgd", SolverKind::sgd}};
+  const Choices<TargetKind> targets = {{"weighted", TargetKind::weighted}, {"rejection", TargetKind::rejection}};
+  const Choices<StartKind> starts = {{"first-order", StartKind::first_order}, {"identity", StartKind::identity}, {"random", StartKind::random}};
+  return {
+      key("fit.solver", [](Draft& d) { return &d.config.fit.solver; }, solvers, "which optimiser fits the matrices"),
+      key("fit.target", [](Draft& d) { return &d.config.fit.target; }, targets, "how the lobe is sampled: weighted lattice, or algorithm 1 with rejection as published"),
+      key("fit.seed", [](Draft& d) { return &d.config.fit.seed; }, {0, most_seed}, "seed of everything random; the same seed gives the same bits"),
+
+      key("fit.gauss_newton.coarse_samples", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_samples; }, {64, 65536}, "cosine samples of the coarse phase"),
+      key("fit.gauss_newton.coarse_directions", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_directions; }, {4, 4096}, "projection directions of the coarse phase"),
+      key("fit.gauss_newton.coarse_steps", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_steps; }, {0, 1000}, "most steps of the coarse phase, for each start"),
+      key("fit.gauss_newton.samples", [](Draft& d) { return &d.config.fit.gauss_newton.samples; }, {64, 65536}, "cosine samples of the fine phase"),
+      key("fit.gauss_newton.directions", [](Draft& d) { return &d.config.fit.gauss_newton.directions; }, {4, 4096}, "projection directions of the fine phase"),
+      key("fit.gauss_newton.steps", [](Draft& d) { return &d.config.fit.gauss_newton.steps; }, {1, 1000}, "most steps of the fine phase"),
+      key("fit.gauss_newton.target_samples", [](Draft& d) { return &d.config.fit.gauss_newton.target_samples; }, {64, 1048576}, "GGX samples that the target's quantiles come from"),
+      key("fit.gauss_newton.starts", [](Draft& d) { return &d.config.fit.gauss_newton.starts; }, {1, 16}, "starting points tried in the coarse phase"),
+      key("fit.gauss_newton.neighbour_sweeps", [](Draft& d) { return &d.config.fit.gauss_newton.neighbour_sweeps; }, {0, 16}, "how often an entry tries its neighbours' solutions"),
+
+      key("fit.sgd.steps", [](Draft& d) { return &d.config.fit.sgd.steps; }, {1, 10'000'000}, "steps an entry"),
+      key("fit.sgd.samples", [](Draft& d) { return &d.config.fit.sgd.samples; }, {16, 1048576}, "cosine samples and GGX samples of a step"),
+      key("fit.sgd.directions", [](Draft& d) { return &d.config.fit.sgd.directions; }, {1, 4096}, "random projection directions of a step"),
+      key("fit.sgd.learning_rate", [](Draft& d) { return &d.config.fit.sgd.learning_rate; }, above(0, 1000), "learning rate"),
+      key("fit.sgd.step_scale", [](Draft& d) { return &d.config.fit.sgd.step_scale; }, above(0, 1000), "the step size is learning_rate * step_scale * step_decay^step"),
+      key("fit.sgd.step_decay", [](Draft& d) { return &d.config.fit.sgd.step_decay; }, above(0, 1), "factor on the step size after each step"),
+      key("fit.sgd.start", [](Draft& d) { return &d.config.fit.sgd.start; }, starts, "where the descent starts"),
+      key("fit.sgd.scaled_variables", [](Draft& d) { return &d.config.fit.sgd.scaled_variables; }, "descend in the mirror's frame divided by the roughness, not in M itself"),
+  };
+}
+
+std::vector<Key> output_keys() {
+  return {
+      file_name_key("output.name", [](Draft& d) { return &d.config.output.name; }, "the files are NAME.h5, NAME.0.exr, NAME.1.exr, NAME.2.exr and NAME.npy"),
+      key("output.hdf5", [](Draft& d) { return &d.config.output.hdf5; }, "write HDF5: everything, with what made it"),
+      key("output.exr", [](Draft& d) { return &d.config.output.exr; }, "write OpenEXR textures: for engines"),
+      key("output.npy", [](Draft& d) { return &d.config.output.npy; }, "write NPY: the matrices alone"),
+      key("output.exr_half", [](Draft& d) { return &d.config.output.exr_half; }, "16-bit textures instead of 32-bit"),
+  };
+}
+// clang-format on
+
+}  // namespace
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> all = [] {
+    std::vector<Key> keys;
+    for (const std::vector<Key>& section : {table_keys(), fit_keys(), output_keys()})
+      keys.insert(keys.end(), section.begin(), section.end());
+    return keys;
+  }();
+  return all;
+}
+
+}  // namespace ltc::config

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "config/config.h"
+
+#include <gtest/gtest.h>
+#include <toml++/toml.h>
+
+#include <functional>
+#include <numbers>
+
+#include "core/error.h"
+#include "support/temporary_directory.h"
+
+namespace ltc {
+namespace {
+
+using test::TemporaryDirectory;
+
+Config load(const std::vector<std::string>& overrides) {
+  return load_config(std::nullopt, overrides);
+}
+
+Config load_text(std::string_view text) {
+  const TemporaryDirectory folder;
+  return load_config(folder.write("config.toml", text), {});
+}
+
+// The message of the error that `action` ends with; empty if it ends well.
+template <typename Error>
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_refused(const std::string& override, const std::vector<std::string>& parts) {
+  const std::string message = message_of<InputError>([&] { load({override}); });
+  EXPECT_FALSE(message.empty()) << override << " was accepted";
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  for (const std::string& part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << '"' << part << "\" is not in: " << message;
+}
+
+TEST(Config, DefaultsAreThePapersGrid) {
+  const Config config = load({});
+  EXPECT_TRUE(config.grid == Grid::paper());  // bit for bit: Grid compares doubles exactly
+  EXPECT_EQ(config.grid.theta.last(), 0.9999 * std::numbers::pi / 2);
+  EXPECT_EQ(config.grid.phi.last(), std::numbers::pi / 2);
+  EXPECT_EQ(to_toml(config), to_toml(Config{}));
+}
+
+TEST(Config, TextOfTheDefaultsIsPlain) {
+  const std::string text = to_toml(Config{});
+  EXPECT_NE(text.find("last_degrees = 89.991\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("last_degrees = 90.0\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("[fit.sgd]\n"), std::string::npos) << text;
+}
+
+// Another allowed value for the key, one that needs all its digits where it can.
+std::string other_value(const ConfigKey& key) {
+  const toml::table parsed = toml::parse("value = " + key.default_value);
+  const toml::node& node = *parsed.get("value");
+  if (const auto* flag = node.as_boolean())
+    return flag->get() ? "false" : "true";
+  if (const auto* integer = node.as_integer())
+    return std::to_string(integer->get() + 1);
+  if (node.as_floating_point()) {
+    const bool last = key.name.find(".last") != std::string::npos;
+    const bool angle = key.name.ends_with("_degrees");
+    return angle ? (last ? "76.543210987654321" : "0.12345678901234567")
+                 : (last ? "0.98765432109876543" : "0.12345678901234567");
+  }
+  const std::string quoted = key.allowed;  // `"a", "b" or "c"`: the last
+  if (const std::size_t end = quoted.rfind('"'); quoted.front() == '"') {
+    const std::size_t begin = quoted.rfind('"', end - 1);
+    return quoted.substr(begin, end - begin + 1);
+  }
+  return "\"other\"";
+}
+
+TEST(Config, EveryKeyChangesTheTextAndReadsBack) {
+  std::vector<std::string> all;
+  for (const ConfigKey& key : config_keys()) {
+    SCOPED_TRACE(key.name);
+    const std::string value = other_value(key);
+    if (key.name == "table.brdf")
+      continue;  // there is only one
+    const Config changed = load({key.name + "=" + value});
+    EXPECT_NE(to_toml(changed), to_toml(Config{}));
+    EXPECT_EQ(to_toml(load_text(to_toml(changed))), to_toml(changed));
+    if (!key.name.starts_with("output.") || key.name == "output.name")
+      all.push_back(key.name + "=" + value);
+  }
+  const Config changed = load(all);
+  const Config again = load_text(to_toml(changed));
+  EXPECT_EQ(to_toml(again), to_toml(changed));
+  EXPECT_TRUE(again.grid == changed.grid);
+  EXPECT_EQ(again.fit.sgd.learning_rate, 0.12345678901234567);
+  EXPECT_TRUE(again.output == changed.output);
+  EXPECT_EQ(again.storage, Storage::mirror_frame);
+  EXPECT_EQ(again.fit.seed, 2u);
+}
+
+TEST(Config, AnglesOfAnyDegreesReadBackToTheSameBits) {
+  for (int i = 1; i < 2000; ++i) {
+    const Config config =
+        load({"table.theta.last_degrees=" + std::to_string(i * 0.0449) + std::to_string(i * 7919)});
+    EXPECT_TRUE(load_text(to_toml(config)).grid == config.grid) << i;
+  }
+}
+
+TEST(Config, OneNodeReadsBack) {
+  const Config config = load({"table.lambda.nodes=1", "table.lambda.first=1"});
+  EXPECT_EQ(config.grid.lambda.nodes, std::vector<double>{1.0});
+  EXPECT_TRUE(load_text(to_toml(config)).grid == config.grid);
+}
+
+TEST(Config, LaterOverridesWin) {
+  const TemporaryDirectory folder;
+  const auto file = folder.write("c.toml", "[fit]\nseed = 5\nsolver = \"sgd\"\n");
+  EXPECT_EQ(load_config(file, {}).fit.seed, 5u);
+  const std::vector<std::string> overrides = {"fit.seed=6", "fit.seed=7"};
+  const Config config = load_config(file, overrides);
+  EXPECT_EQ(config.fit.seed, 7u);
+  EXPECT_EQ(config.fit.solver, SolverKind::sgd);
+}
+
+TEST(Config, OverridesTakeBareStringsAndWholeNumbersForReals) {
+  EXPECT_EQ(load({"fit.solver=sgd"}).fit.solver, SolverKind::sgd);
+  EXPECT_EQ(load({"fit.solver=\"sgd\""}).fit.solver, SolverKind::sgd);
+  EXPECT_EQ(load({"fit.sgd.learning_rate=2"}).fit.sgd.learning_rate, 2.0);
+}
+
+TEST(Config, UnknownKeysAreNamedWithTheNearest) {
+  expect_refused("fit.sgd.stepz=3", {"--set", "fit.sgd.stepz", "3", "did you mean fit.sgd.steps?"});
+  expect_refused("learning_rate=3", {"did you mean fit.sgd.learning_rate?"});
+  expect_refused("colour=\"red\"", {"unknown key colour", "config/default.toml"});
+  expect_refused("fit.sgd=3", {"fit.sgd is a section"});
+  expect_refused("fit.seed.more=3", {"unknown key fit.seed.more"});
+}
+
+TEST(Config, WrongTypesAreRefused) {
+  expect_refused("fit.seed=1.5", {"fit.seed = 1.5", "a whole number in [0, "});
+  expect_refused("fit.seed=many", {"fit.seed = \"many\"", "a whole number"});
+  expect_refused("fit.seed=[1, 2]", {"fit.seed = an array", "a whole number"});
+  expect_refused("fit.sgd.learning_rate=true", {"= true", "a number in (0, 1000]"});
+  expect_refused("output.exr=1", {"output.exr = 1", "true or false"});
+  expect_refused("fit.solver=3", {"fit.solver = 3", "\"gauss-newton\" or \"sgd\""});
+  expect_refused("fit.sgd.steps={a = 1}", {"fit.sgd.steps", "a whole number"});
+}
+
+TEST(Config, ValuesOutOfRangeAreRefused) {
+  expect_refused("fit.sgd.steps=0", {"--set: fit.sgd.steps = 0", "[1, 10000000]"});
+  expect_refused("fit.seed=-1", {"fit.seed = -1", "[0, 9007199254740992]"});
+  expect_refused("fit.sgd.learning_rate=0", {"(0, 1000]"});
+  expect_refused("fit.sgd.learning_rate=nan", {"= nan", "(0, 1000]"});
+  expect_refused("fit.sgd.learning_rate=inf", {"= inf", "(0, 1000]"});
+  expect_refused("table.alpha.nodes=65", {"[1, 64]"});
+  expect_refused("table.theta.last_degrees=90", {"[0, 90)"});
+  expect_refused("table.phi.last_degrees=90.5", {"[0, 90]"});
+  expect_refused("table.alpha_min=0", {"table.alpha_min = 0"});
+  expect_refused("table.storage=other", {"\"other\"", "\"roughness-scaled\" or \"mirror-frame\""});
+  expect_refused("fit.solver=SGD", {"\"SGD\"", "\"sgd\""});
+  for (const char* name : {"", "a/b", ".hidden", "-x", "a b"})
+    expect_refused(std::string("output.name=") + name, {"output.name", "file name"});
+}
+
+TEST(Config, KeysThatDoNotGoTogetherAreRefused) {
+  expect_refused("table.alpha.first=1", {"--set: table.alpha.first = 1", "table.alpha.last = 1"});
+  expect_refused("table.theta.first_degrees=89.995", {"table.theta.first_degrees", "89.991"});
+  const std::string message = message_of<InputError>([] {
+    load({"output.hdf5=false", "output.exr=false", "output.npy=false"});
+  });
+  EXPECT_NE(message.find("at least one true"), std::string::npos) << message;
+}
+
+TEST(Config, OverridesNeedAnEqualsSign) {
+  expect_refused("fit.seed", {"--set fit.seed", "key=value"});
+  expect_refused("=3", {"--set =3", "key=value"});
+  expect_refused("fit.seed=1\nfit.solver=3", {"fit.seed", "a whole number"});
+}
+
+TEST(Config, FilesAreNamedWithTheLine) {
+  const TemporaryDirectory folder;
+  const auto message = [&](std::string_view text) {
+    const auto file = folder.write("bad.toml", text);
+    const std::string all = message_of<InputError>([&] { load_config(file, {}); });
+    EXPECT_EQ(all.find('\n'), std::string::npos) << all;
+    EXPECT_EQ(all.find(file.string() + ":"), 0u) << all;
+    return all.substr(std::min(all.size(), file.string().size()));
+  };
+  EXPECT_EQ(message("[fit]\n\nseed = -1\n").find(":3: fit.seed = -1: expected a whole"), 0u);
+  EXPECT_EQ(message("[fitt]\nseed = 1\n").find(":1: unknown key fitt"), 0u);
+  EXPECT_EQ(message("[fit]\nseed = \n").find(":2: not TOML"), 0u);
+  EXPECT_EQ(message("fit = 3\n").find(":1: fit = 3: fit is a section"), 0u);
+  EXPECT_EQ(message("[fit]\nseed = 1\nseed = 2\n").find(":3: not TOML"), 0u);
+  EXPECT_EQ(message("\xff\xfe\x00").find(":1: not TOML"), 0u);
+  EXPECT_EQ(message("[table.alpha]\nfirst = 0.5\nlast = 0.25\n").find(":"), 0u);
+}
+
+TEST(Config, FilesThatCannotBeReadAreIoErrors) {
+  const TemporaryDirectory folder;
+  const auto message = [](const std::filesystem::path& file) {
+    return message_of<IoError>([&] { load_config(file, {}); });
+  };
+  EXPECT_EQ(message(folder / "none.toml"), "cannot read config " + (folder / "none.toml").string() +
+                                               ": No such file or directory");
+  EXPECT_NE(message(folder.path()).find("it is a folder"), std::string::npos);
+  EXPECT_NE(message_of<InputError>([] { load_config("/dev/zero", {}); }).find("larger than"),
+            std::string::npos);
+}
+
+// ---- The configs that come with the program
+// -------------------------------------------------------
+
+std::filesystem::path shipped(std::string_view name) {
+  return std::filesystem::path(LTCFIT_SOURCE_DIR) / "config" / name;
+}
+
+TEST(ShippedConfigs, DefaultSaysEveryKeyWithItsDefault) {
+  const toml::table file = toml::parse_file(shipped("default.toml").string());
+  for (const ConfigKey& key : config_keys()) {
+    const toml::table expected = toml::parse("value = " + key.default_value);
+    const auto said = file.at_path(key.name);
+    ASSERT_TRUE(said) << key.name << " is not in config/default.toml";
+    toml::table found;
+    found.insert("value", *said.node());
+    EXPECT_TRUE(found == expected)
+        << key.name << " in config/default.toml is not " << key.default_value;
+  }
+  EXPECT_EQ(to_toml(load_config(shipped("default.toml"), {})), to_toml(Config{}));
+}
+
+TEST(ShippedConfigs, PaperIsAsPublished) {
+  const Config paper = load_config(shipped("paper.toml"), {});
+  EXPECT_TRUE(paper.grid == Grid::paper());
+  EXPECT_EQ(paper.storage, Storage::matrix);
+  EXPECT_EQ(paper.fit.solver, SolverKind::sgd);
+  EXPECT_EQ(paper.fit.target, TargetKind::rejection);
+  EXPECT_EQ(paper.fit.sgd.steps, 10000);
+  EXPECT_EQ(paper.fit.sgd.samples, 2048);
+  EXPECT_EQ(paper.fit.sgd.directions, 64);
+  EXPECT_EQ(paper.fit.sgd.learning_rate, 1.0);
+  EXPECT_EQ(paper.fit.sgd.step_scale, 0.1);
+  EXPECT_EQ(paper.fit.sgd.step_decay, 0.999);
+  EXPECT_FALSE(paper.fit.sgd.scaled_variables);
+}
+
+TEST(ShippedConfigs, AllOfThemLoad) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(shipped("")))
+    if (entry.path().extension() == ".toml") {
+      EXPECT_NO_THROW(load_config(entry.path(), {})) << entry.path();
+      ++count;
+    }
+  EXPECT_GE(count, 4);
+}
+
+}  // namespace
+}  // namespace ltc
