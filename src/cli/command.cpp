@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/command.h"
+
+namespace ltc::cli {
+
+// One a file of the same name.
+Action declare_generate(CLI::App& app);
+
+std::span<const Command> commands() {
+  static constexpr Command all[] = {
+      {"generate", "Make a table", "fit a table and write it as HDF5, OpenEXR and NPY",
+       declare_generate},
+  };
+  return all;
+}
+
+}  // namespace ltc::cli

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/options.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <charconv>
+
+#include "cli/output.h"
+
+namespace ltc::cli {
+namespace {
+
+constexpr int most_threads = 1024;
+
+// A message if the text is no number of threads.
+std::string check_threads(const std::string& text) {
+  int threads = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, threads);
+  if (error == std::errc() && stop == end && threads >= 1 && threads <= most_threads)
+    return "";
+  return fmt::format("{} is not allowed; expected a whole number in [1, {}]", text, most_threads);
+}
+
+}  // namespace
+
+Config ConfigArguments::load() const {
+  return load_config(file.empty() ? std::nullopt : std::optional<std::filesystem::path>(file),
+                     overrides);
+}
+
+std::string ConfigArguments::as_text() const {
+  std::string text;
+  if (!file.empty())
+    text += " --config " + shell_quoted(file);
+  for (const std::string& override : overrides)
+    text += " --set " + shell_quoted(override);
+  return text;
+}
+
+void add_config_options(CLI::App& app, ConfigArguments& arguments) {
+  const auto not_empty = [](const std::string& text) {
+    return std::string(text.empty() ? "is empty; expected a TOML file" : "");
+  };
+  app.add_option("-c,--config", arguments.file,
+                 "TOML file that says what differs from the defaults [none]")
+      ->check(not_empty)
+      ->option_text("FILE")
+      ->group("What to fit");
+  app.add_option("-s,--set", arguments.overrides,
+                 "change one key of the config, for example fit.seed=2; can be repeated")
+      ->allow_extra_args(false)
+      ->option_text("KEY=VALUE")
+      ->group("What to fit");
+}
+
+void add_output_option(CLI::App& app, std::string& folder) {
+  app.add_option("-o,--output", folder,
+                 fmt::format("folder for the files, created if need be [{}]", folder))
+      ->check([](const std::string& text) {
+        return std::string(text.empty() ? "is empty; expected a folder" : "");
+      })
+      ->option_text("DIR")
+      ->group("Where to write");
+}
+
+void add_threads_option(CLI::App& app, int& threads) {
+  app.add_option("-t,--threads", threads,
+                 "threads; the result has the same bits with any number [one a processor]")
+      ->check(check_threads)
+      ->option_text("N")
+      ->group("How to run");
+}
+
+int default_threads() {
+  return omp_get_num_procs();
+}
+
+}  // namespace ltc::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// Options that several subcommands share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+
+namespace ltc::cli {
+
+// --config and --set.
+struct ConfigArguments {
+  std::string file;  // empty: defaults
+  std::vector<std::string> overrides;
+
+  Config load() const;
+  // " --config F --set key=value", as a shell reads it.
+  std::string as_text() const;
+};
+
+void add_config_options(CLI::App& app, ConfigArguments& arguments);
+void add_output_option(CLI::App& app, std::string& folder);
+void add_threads_option(CLI::App& app, int& threads);
+
+// As many threads as this process may use processors.
+int default_threads();
+
+}  // namespace ltc::cli

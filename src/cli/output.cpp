@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/platform.h"
+
+namespace ltc::cli {
+
+namespace fs = std::filesystem;
+
+void print(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0)
+    throw IoError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+}
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text)
+    if (c == '\n')
+      line += "\\n";
+    else if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7f)
+      line += fmt::format("\\x{:02x}", code);
+    else
+      line += c;
+  return line;
+}
+
+std::string shell_quoted(std::string_view argument) {
+  constexpr std::string_view plain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@%+=:,./_-";
+  if (!argument.empty() && argument.find_first_not_of(plain) == std::string_view::npos)
+    return std::string(argument);
+  std::string quoted = "'";
+  for (const char c : argument)
+    if (c == '\'')
+      quoted += "'\\''";
+    else
+      quoted += c;
+  return quoted + '\'';
+}
+
+OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
+  std::error_code ignored;
+  fs::path missing = fs::absolute(path_).lexically_normal();
+  if (!missing.has_filename())  // "out/"
+    missing = missing.parent_path();
+  for (; missing.has_relative_path() && !fs::exists(missing, ignored);
+       missing = missing.parent_path())
+    created_.insert(created_.begin(), missing);
+  try {
+    platform::require_writable_folder(path_);
+  } catch (...) {
+    remove_created();
+    throw;
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  remove_created();
+}
+
+void OutputFolder::remove_created() {
+  std::error_code ignored;
+  for (auto folder = created_.rbegin(); folder != created_.rend(); ++folder)
+    fs::remove(*folder, ignored);  // refuses a folder that holds anything
+}
+
+}  // namespace ltc::cli

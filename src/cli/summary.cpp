@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/summary.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "cli/progress.h"
+#include "pipeline/summary.h"
+
+namespace ltc::cli {
+namespace {
+
+constexpr std::size_t worst_count = 5;
+
+std::string entry_text(const Grid& grid, std::size_t flat) {
+  const NodeIndex node = grid.node(flat);
+  return fmt::format("{},{},{},{}", node.alpha, node.lambda, node.theta, node.phi);
+}
+
+std::string lobe_text(const Grid& grid, std::size_t flat) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const NodeIndex node = grid.node(flat);
+  return fmt::format("alpha {:.3f}, lambda {:.3f}, theta {:.1f}, phi {:.1f}",
+                     grid.alpha.nodes[node.alpha], grid.lambda.nodes[node.lambda],
+                     grid.theta.nodes[node.theta] * degrees, grid.phi.nodes[node.phi] * degrees);
+}
+
+std::string time_text(const RunReport& report) {
+  std::string stages;
+  for (const auto& [stage, seconds] : report.generate.stage_seconds)
+    stages += fmt::format("{}{} {}", stages.empty() ? "" : ", ", stage, duration_text(seconds));
+  return fmt::format("time     {} ({})\n", duration_text(report.seconds), stages);
+}
+
+std::string entries_text(const TableSummary& summary) {
+  const auto count = [&](Status status) {
+    return summary.entries_by_status[static_cast<std::size_t>(status)];
+  };
+  std::size_t all = 0;
+  for (const std::size_t entries : summary.entries_by_status)
+    all += entries;
+  return fmt::format(
+      "entries  {}: {} fitted, {} copied by symmetry, {} analytic, {} skipped, {} failed\n", all,
+      count(Status::fitted), count(Status::copied), count(Status::analytic), count(Status::skipped),
+      count(Status::failed));
+}
+
+std::string loss_text(const TableSummary& summary) {
+  if (summary.judged == 0)
+    return "loss     no entry has one\n";
+  return fmt::format("loss     mean {:.4e}, p95 {:.4e}, largest {:.4e} (sliced Wasserstein)\n",
+                     summary.mean_loss, summary.p95_loss, summary.largest_loss);
+}
+
+std::string worst_text(const Table& table, const TableSummary& summary,
+                       const std::string& debug_command) {
+  std::string text;
+  for (const std::size_t flat : summary.worst)
+    text += fmt::format("{} {:.4e}  {}\n           {} {}\n", text.empty() ? "worst   " : "        ",
+                        table.sw_loss[flat], lobe_text(table.grid, flat), debug_command,
+                        entry_text(table.grid, flat));
+  return text;
+}
+
+}  // namespace
+
+std::string summary_text(const Table& table, const RunReport& report) {
+  const TableSummary summary = summarize(table, worst_count);
+  std::string text = time_text(report);
+  text += fmt::format("memory   {:.0f} MB at most\n",
+                      static_cast<double>(report.peak_memory_bytes) / 1e6);
+  text += entries_text(summary);
+  text += loss_text(summary);
+  text += fmt::format("symmetry largest value zeroed {:.1e}, at entry {}\n",
+                      report.generate.largest_zeroed,
+                      entry_text(table.grid, report.generate.largest_zeroed_entry));
+  text += worst_text(table, summary, report.debug_command);
+  for (const std::filesystem::path& file : report.files)
+    text += fmt::format("wrote    {}\n", file.string());
+  return text;
+}
+
+}  // namespace ltc::cli

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What generate tells at its end.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/generate.h"
+
+namespace ltc::cli {
+
+struct RunReport {
+  GenerateReport generate;
+  double seconds = 0;  // the whole run, files included
+  std::size_t peak_memory_bytes = 0;
+  std::vector<std::filesystem::path> files;
+  std::string debug_command;  // the command that looks into an entry, up to the entry's indices
+};
+
+std::string summary_text(const Table& table, const RunReport& report);
+
+}  // namespace ltc::cli
