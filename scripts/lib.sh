@@ -1,0 +1,68 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# What scripts/generate and scripts/test share: packages, configuring, building. Sourced, not run.
+# shellcheck disable=SC2034  # the lists are used by those scripts
+
+# To build and run (Debian 12).
+build_packages=(
+  g++ cmake ninja-build git pkg-config
+  libeigen3-dev libhdf5-dev libopenexr-dev libgtest-dev libhwy-dev libcli11-dev libtomlplusplus-dev
+  libfmt-dev libpng-dev nlohmann-json3-dev libbenchmark-dev
+)
+# Readers by others, which the tests check our files with.
+test_packages=(hdf5-tools openexr python3-h5py python3-numpy)
+
+say() { echo "== $*" >&2; }
+
+fail() {
+  echo "$(basename "$0"): $*" >&2
+  exit 1
+}
+
+# Names the command that stopped a script.
+report_errors() {
+  trap 'echo "$(basename "$0"): stopped at line $LINENO: $BASH_COMMAND" >&2' ERR
+}
+
+# Those of the packages that are not installed.
+missing_packages() {
+  local package known
+  # shellcheck disable=SC2016  # the format is dpkg-query's, not the shell's
+  known=$(dpkg-query --show --showformat='${Package} ${db:Status-Status}\n' "$@" 2>/dev/null || true)
+  for package in "$@"; do
+    grep -qxF "$package installed" <<<"$known" || echo "$package"
+  done
+}
+
+# Installs what is missing; touches neither the network nor sudo if nothing is.
+install_packages() {
+  command -v dpkg-query >/dev/null ||
+    fail "needs a system with apt; elsewhere install the likes of: $*, then see CONTRIBUTING.md"
+  local missing as_root=()
+  mapfile -t missing < <(missing_packages "$@")
+  ((${#missing[@]})) || return 0
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null ||
+      fail "these packages are missing, and neither root nor sudo is at hand to install them: ${missing[*]}"
+    as_root=(sudo)
+  fi
+  say "installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq || fail "apt-get update failed"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
+    fail "apt-get could not install: ${missing[*]}"
+}
+
+# Configures and builds a preset; quiet unless it fails.
+build_preset() {
+  local preset=$1 log
+  log=$(mktemp)
+  say "building the $preset preset"
+  if ! cmake --preset "$preset" >"$log" 2>&1 ||
+    ! cmake --build --preset "$preset" >>"$log" 2>&1; then
+    cat "$log" >&2
+    rm -f "$log"
+    fail "could not build the $preset preset"
+  fi
+  rm -f "$log"
+}
