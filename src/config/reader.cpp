@@ -60,10 +60,11 @@ bool is_section(std::string_view name) {
 
 // Ready to append to a message: the key that was probably meant.
 std::string suggestion(std::string_view unknown) {
-  const std::string last_word = fmt::format(".{}", unknown.substr(unknown.rfind('.') + 1));
+  const auto last_word = [](std::string_view name) { return name.substr(name.rfind('.') + 1); };
   const auto distance = [&](const Key& key) {
-    // A right last word in a wrong section is as near as it gets: [fit] steps for fit.sgd.steps.
-    return key.name.ends_with(last_word) ? 1 : edit_distance(key.name, unknown);
+    // The right word in a wrong section is near too: fit.steps for fit.sgd.steps.
+    return std::min(edit_distance(key.name, unknown),
+                    1 + edit_distance(last_word(key.name), last_word(unknown)));
   };
   const Key& nearest =
       *std::min_element(keys().begin(), keys().end(),

@@ -213,8 +213,7 @@ TEST(Config, FilesThatCannotBeReadAreIoErrors) {
             std::string::npos);
 }
 
-// ---- The configs that come with the program
-// -------------------------------------------------------
+// ---- The configs that come with the program ----
 
 std::filesystem::path shipped(std::string_view name) {
   return std::filesystem::path(LTCFIT_SOURCE_DIR) / "config" / name;

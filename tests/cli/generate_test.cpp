@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// ltcfit generate, through the real program: what it writes, refuses and leaves behind.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+
+#include "support/program.h"
+
+namespace ltc::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A table of sixteen entries in the least time.
+const std::vector<std::string> tiny = {
+    "--set", "table.alpha.nodes=2",      "--set", "table.lambda.nodes=2",
+    "--set", "table.theta.nodes=2",      "--set", "table.phi.nodes=2",
+    "--set", "fit.gauss_newton.steps=2", "--set", "fit.gauss_newton.starts=1"};
+
+std::vector<std::string> generate(std::vector<std::string> more, bool small = true) {
+  std::vector<std::string> arguments = {"generate"};
+  if (small)
+    arguments.insert(arguments.end(), tiny.begin(), tiny.end());
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+// One line on standard error with all the parts, the exit code, and nothing else said.
+void expect_error(const ProgramResult& result, int exit_code,
+                  const std::vector<std::string>& parts) {
+  EXPECT_EQ(result.exit_code, exit_code) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_TRUE(result.err.starts_with("ltcfit: ")) << result.err;
+  EXPECT_TRUE(result.err.ends_with('\n')) << result.err;
+  for (const std::string& part : parts)
+    EXPECT_NE(result.err.find(part), std::string::npos)
+        << '"' << part << "\" is not in: " << result.err;
+}
+
+// Runs in an empty folder, where the default output folder would appear; nothing must.
+void expect_refused(const std::vector<std::string>& arguments, int exit_code,
+                    const std::vector<std::string>& parts) {
+  const TemporaryDirectory folder;
+  expect_error(run_ltcfit(arguments, folder.path()), exit_code, parts);
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{});
+}
+
+// ---- What it writes ----
+
+TEST(Generate, WritesTheFilesAndTellsOfThem) {
+  const TemporaryDirectory folder;
+  const ProgramResult result = run_ltcfit(generate({}), folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"out"});
+  const std::vector<std::string> files = {"ltc.0.exr", "ltc.1.exr", "ltc.2.exr", "ltc.h5",
+                                          "ltc.npy"};
+  EXPECT_EQ(names_in(folder / "out"), files);
+  for (const std::string& file : files)
+    EXPECT_NE(result.out.find("wrote    out/" + file + "\n"), std::string::npos) << result.out;
+  for (const char* part : {"time  ", "memory  ", "entries  16: ", "loss  ", "symmetry ", "worst  ",
+                           " --set table.alpha.nodes=2 "})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << " is not in: " << result.out;
+  EXPECT_NE(result.out.find("ltcfit fit "), std::string::npos);
+  EXPECT_NE(result.out.find(" --entry "), std::string::npos);
+}
+
+TEST(Generate, WritesOnlyWhatTheConfigAsksFor) {
+  const TemporaryDirectory folder;
+  const ProgramResult result =
+      run_ltcfit(generate({"--output", "a/b", "--set", "output.exr=false", "--set",
+                           "output.hdf5=false", "--set", "output.name=mine"}),
+                 folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(names_in(folder / "a/b"), std::vector<std::string>{"mine.npy"});
+}
+
+TEST(Generate, ReplacesAnOlderTable) {
+  const TemporaryDirectory folder;
+  folder.write("ltc.npy", "old");
+  const ProgramResult result =
+      run_ltcfit(generate({"--output", folder.path().string()}), folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(read_file(folder / "ltc.npy"), "old");
+}
+
+TEST(Generate, ProgressStaysPlainWhereThereIsNoTerminal) {
+  const TemporaryDirectory folder;
+  const ProgramResult result = run_ltcfit(generate({}), folder.path());
+  ASSERT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err.find_first_of("\r\033"), std::string::npos) << result.err;
+}
+
+// ---- What it refuses ----
+
+TEST(GenerateBadInput, UnknownKey) {
+  expect_refused(generate({"--set", "fit.stepz=3"}), 2,
+                 {"--set", "fit.stepz", "3", "did you mean"});
+}
+
+TEST(GenerateBadInput, WrongType) {
+  expect_refused(generate({"--set", "fit.seed=soon"}), 2,
+                 {"--set", "fit.seed", "\"soon\"", "whole number in [0, "});
+}
+
+TEST(GenerateBadInput, ValueOutOfRange) {
+  expect_refused(generate({"--set", "table.alpha.nodes=0"}), 2,
+                 {"--set", "table.alpha.nodes = 0", "[1, 64]"});
+}
+
+TEST(GenerateBadInput, ConfigFile) {
+  const TemporaryDirectory configs;
+  const auto expect_config_refused = [&](std::string_view text, const std::string& line,
+                                         std::vector<std::string> parts) {
+    const fs::path file = configs.write("bad.toml", text);
+    parts.push_back(file.string() + ":" + line + ": ");
+    expect_refused({"generate", "--config", file.string()}, 2, parts);
+  };
+  expect_config_refused("[fit]\nsolver = \"newton\"\n", "2",
+                        {"fit.solver = \"newton\"", "\"gauss-newton\" or \"sgd\""});
+  expect_config_refused("[fit]\nseeds = 1\n", "2", {"unknown key fit.seeds = 1", "fit.seed?"});
+  expect_config_refused("[fit]\nseed = \"1\"\n", "2", {"fit.seed = \"1\"", "whole number"});
+  expect_config_refused("[fit]\nseed = -1\n", "2", {"fit.seed = -1", "[0, "});
+  expect_config_refused("[fit\nseed = 1\n", "1", {"not TOML"});
+  expect_config_refused("\"a\\nb\" = 1\n", "1", {"unknown key a\\nb"});
+}
+
+TEST(GenerateBadInput, MissingConfig) {
+  expect_refused(generate({"--config", "none.toml"}), 3, {"none.toml", "No such file"});
+}
+
+TEST(GenerateBadInput, UnreadableConfig) {
+  // A folder: unreadable as a file even to root.
+  expect_refused(generate({"--config", "/"}), 3, {"config /", "folder", "TOML file"});
+}
+
+TEST(GenerateBadInput, OutputThatIsAFile) {
+  const TemporaryDirectory folder;
+  const fs::path file = folder.write("taken", "content");
+  expect_refused(generate({"--output", file.string()}), 3, {file.string(), "is a file", "folder"});
+  EXPECT_EQ(read_file(file), "content");
+}
+
+TEST(GenerateBadInput, OutputThatCannotBeMade) {
+  const TemporaryDirectory folder;
+  const fs::path file = folder.write("taken", "content");
+  expect_refused(generate({"--output", (file / "below").string()}), 3, {(file / "below").string()});
+  expect_refused(generate({"--output", "/proc/nonexistent/below"}), 3, {"/proc/nonexistent/below"});
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"taken"});
+}
+
+TEST(GenerateBadInput, FileThatIsAFolder) {
+  const TemporaryDirectory folder;
+  fs::create_directories(folder / "out/ltc.npy");
+  expect_error(run_ltcfit(generate({}), folder.path()), 3, {"out/ltc.npy", "is a folder"});
+  EXPECT_EQ(names_in(folder / "out"), std::vector<std::string>{"ltc.npy"});
+}
+
+TEST(GenerateBadInput, Threads) {
+  for (const char* threads : {"0", "-1", "1025", "two", "1.5", "", "99999999999999"})
+    expect_refused(generate({"--threads", threads}), 2, {"--threads", threads, "[1, 1024]"});
+}
+
+TEST(GenerateBadInput, Usage) {
+  expect_refused({"generate", "--colour"}, 2, {"--colour", "--help"});
+  expect_refused({"generate", "extra"}, 2, {"extra", "--help"});
+  expect_refused({"generate", "--config"}, 2, {"--config"});
+  expect_refused({"generate", "--config", ""}, 2, {"--config"});
+  expect_refused({"generate", "--output", ""}, 2, {"--output"});
+  expect_refused({"generate", "--set", "fit.seed"}, 2, {"--set", "fit.seed", "key=value"});
+}
+
+// ---- What an interrupt leaves ----
+
+// The command for sixteen entries that would take hours, whatever the machine.
+std::vector<std::string> endless(const std::string& output) {
+  std::vector<std::string> command =
+      generate({"--config", LTCFIT_SOURCE_DIR "/config/paper.toml", "--set",
+                "fit.sgd.steps=10000000", "--threads", "2", "--output", output});
+  command.insert(command.begin(), LTCFIT_PROGRAM);
+  return command;
+}
+
+// The promise is one second; a machine under load gets ten. Without a way to stop, the fit would
+// go on for hours.
+constexpr std::chrono::seconds stop_limit{10};
+constexpr std::chrono::seconds start_limit{60};
+
+TEST(GenerateInterrupt, EndsSoonAndLeavesNothing) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TemporaryDirectory folder;
+    RunningProgram program(endless("a/b"), folder.path());
+    ASSERT_TRUE(program.wait_for_error_text("fit: ", start_limit));
+    program.send_signal(signal);
+    const ProgramResult result = program.wait(stop_limit);
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(result.err.ends_with("ltcfit: interrupted; nothing was written\n")) << result.err;
+    EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{});
+  }
+}
+
+TEST(GenerateInterrupt, KeepsAnOlderTable) {
+  const TemporaryDirectory folder;
+  folder.write("ltc.npy", "old");
+  RunningProgram program(endless(folder.path().string()));
+  ASSERT_TRUE(program.wait_for_error_text("fit: ", start_limit));
+  program.send_signal(SIGINT);
+  EXPECT_EQ(program.wait(stop_limit).exit_code, 130);
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"ltc.npy"});
+  EXPECT_EQ(read_file(folder / "ltc.npy"), "old");
+}
+
+}  // namespace
+}  // namespace ltc::test
