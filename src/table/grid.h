@@ -27,6 +27,8 @@ struct Grid {
   // The paper's grid: alpha and lambda on [0, 1], theta on [0, 0.9999 pi/2], phi on [0, pi/2], all
   // linear with `nodes_per_axis` nodes.
   static Grid paper(std::size_t nodes_per_axis = 8);
+  // The same ranges with (alpha, lambda, theta, phi) node counts of their own.
+  static Grid paper(const std::array<std::size_t, 4>& shape);
 
   std::size_t size() const { return alpha.size() * lambda.size() * theta.size() * phi.size(); }
   std::array<std::size_t, 4> shape() const {

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "table/axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace ltc {
+namespace {
+
+constexpr std::array<std::pair<Warp, std::string_view>, 3> warp_names{{
+    {Warp::linear, "linear"},
+    {Warp::sqrt, "sqrt"},
+    {Warp::complement_sqrt, "complement-sqrt"},
+}};
+
+double warped(Warp warp, double x) {
+  switch (warp) {
+    case Warp::linear:
+      return x;
+    case Warp::sqrt:
+      return std::sqrt(x);
+    case Warp::complement_sqrt:
+      return 1 - std::sqrt(1 - x);
+  }
+  return x;
+}
+
+double unwarped(Warp warp, double u) {
+  switch (warp) {
+    case Warp::linear:
+      return u;
+    case Warp::sqrt:
+      return u * u;
+    case Warp::complement_sqrt:
+      return 1 - (1 - u) * (1 - u);
+  }
+  return u;
+}
+
+void require_range(double first, double last, std::size_t count) {
+  if (count == 0)
+    throw InputError("axis has 0 nodes; allowed: 1 or more");
+  if (!std::isfinite(first) || !std::isfinite(last) || (count > 1 && !(first < last)))
+    throw InputError(
+        fmt::format("axis runs from {} to {}; both must be finite and the first less than the last",
+                    first, last));
+}
+
+}  // namespace
+
+std::string_view warp_name(Warp warp) {
+  for (const auto& [value, name] : warp_names)
+    if (value == warp)
+      return name;
+  throw InputError(fmt::format("warp {} is unknown", static_cast<int>(warp)));
+}
+
+Warp warp_from_name(std::string_view name) {
+  for (const auto& [value, known] : warp_names)
+    if (known == name)
+      return value;
+  throw InputError(
+      fmt::format("warp \"{}\" is unknown; allowed: linear, sqrt, complement-sqrt", name));
+}
+
+Axis Axis::make(double first, double last, std::size_t count, Warp warp) {
+  require_range(first, last, count);
+  Axis axis{{first}, warp};
+  axis.nodes.reserve(count);
+  for (std::size_t i = 1; i < count; ++i) {
+    const double u = static_cast<double>(i) / static_cast<double>(count - 1);
+    axis.nodes.push_back(first + (last - first) * unwarped(warp, u));
+  }
+  // first + (last - first) may round to a neighbour of last; files promise last itself.
+  if (count > 1)
+    axis.nodes.back() = last;
+  return axis;
+}
+
+double Axis::coordinate(double value) const {
+  if (size() == 1)
+    return std::isnan(value) ? value : 0.0;
+  const double x = (value - first()) / (last() - first());
+  return warped(warp, std::clamp(x, 0.0, 1.0));
+}
+
+double Axis::value(double coordinate) const {
+  return first() + (last() - first()) * unwarped(warp, std::clamp(coordinate, 0.0, 1.0));
+}
+
+}  // namespace ltc

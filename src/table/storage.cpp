@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "table/storage.h"
+
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace ltc {
+namespace {
+
+constexpr std::array<std::pair<Storage, std::string_view>, 3> storage_names{{
+    {Storage::matrix, "matrix"},
+    {Storage::roughness_scaled, "roughness-scaled"},
+    {Storage::mirror_frame, "mirror-frame"},
+}};
+
+}  // namespace
+
+std::string_view storage_name(Storage storage) {
+  for (const auto& [value, name] : storage_names)
+    if (value == storage)
+      return name;
+  throw InputError(fmt::format("storage {} is unknown", static_cast<int>(storage)));
+}
+
+Storage storage_from_name(std::string_view name) {
+  for (const auto& [value, known] : storage_names)
+    if (known == name)
+      return value;
+  throw InputError(fmt::format(
+      "storage \"{}\" is unknown; allowed: matrix, roughness-scaled, mirror-frame", name));
+}
+
+Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v) {
+  const double x = omega_v.x(), y = omega_v.y(), z = omega_v.z();
+  const double s = 1 / (1 + z);
+  Eigen::Matrix3d rotation;
+  rotation << 1 - x * x * s, -x * y * s, -x,  //
+      -x * y * s, 1 - y * y * s, -y,          //
+      x, y, z;
+  return rotation;
+}
+
+Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& stored,
+                                   const GgxLobe& lobe) {
+  if (storage == Storage::matrix)
+    return stored;
+  Eigen::Matrix3d matrix = stored;
+  matrix.col(0) *= lobe.alpha_x;
+  matrix.col(1) *= lobe.alpha_y;
+  if (storage == Storage::mirror_frame)
+    matrix = (mirror_rotation(lobe.omega_v()) * matrix).eval();
+  return matrix;
+}
+
+Eigen::Matrix3d stored_from_matrix(Storage storage, const Eigen::Matrix3d& matrix,
+                                   const GgxLobe& lobe) {
+  if (storage == Storage::matrix)
+    return matrix;
+  Eigen::Matrix3d stored = matrix;
+  if (storage == Storage::mirror_frame)
+    stored = (mirror_rotation(lobe.omega_v()).transpose() * stored).eval();
+  stored.col(0) /= lobe.alpha_x;
+  stored.col(1) /= lobe.alpha_y;
+  return stored;
+}
+
+}  // namespace ltc
