@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The anisotropic GGX lobe: evaluation and sampling without cancellation.
+#include "brdf/ggx.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace ltc {
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+// A sine or cosine below the rounding error of its argument is zero.
+double without_rounding(double sine) {
+  return std::abs(sine) < 1e-15 ? 0.0 : sine;
+}
+
+// (alpha_x x)^2 + (alpha_y y)^2: z^2 times the slope variance along the direction.
+double stretched_sine_squared(double alpha_x, double alpha_y, const Eigen::Vector3d& omega) {
+  return square(alpha_x * omega.x()) + square(alpha_y * omega.y());
+}
+
+}  // namespace
+
+Eigen::Vector3d GgxLobe::omega_v() const {
+  const double sin_theta = std::sin(theta_radians);
+  return {sin_theta * without_rounding(std::cos(phi_radians)),
+          sin_theta * without_rounding(std::sin(phi_radians)), std::cos(theta_radians)};
+}
+
+// With h = H/|H| equation (4) reads |H|^4 / (pi ax ay ((Hx/ax)^2 + (Hy/ay)^2 + Hz^2)^2): no
+// normalised z^2 = 1 - x^2 - y^2 is ever formed, and Hx, Hy keep their digits.
+double ggx_ndf(double alpha_x, double alpha_y, const Eigen::Vector3d& omega_h) {
+  if (!(omega_h.z() > 0))
+    return 0;
+  const double stretched =
+      square(omega_h.x() / alpha_x) + square(omega_h.y() / alpha_y) + square(omega_h.z());
+  return square(omega_h.squaredNorm() / stretched) / (std::numbers::pi * alpha_x * alpha_y);
+}
+
+// Equation (5) with s^2 = ax^2 x^2 + ay^2 y^2:
+//   (-1 + sqrt(1 + s^2/z^2))/2 = s^2 / (2 |z| (|z| + sqrt(z^2 + s^2))).
+double ggx_lambda(double alpha_x, double alpha_y, const Eigen::Vector3d& omega) {
+  const double s_squared = stretched_sine_squared(alpha_x, alpha_y, omega);
+  const double z = std::abs(omega.z());
+  return s_squared / (2 * z * (z + std::sqrt(z * z + s_squared)));
+}
+
+double ggx_g1(double alpha_x, double alpha_y, const Eigen::Vector3d& omega) {
+  return 1 / (1 + ggx_lambda(alpha_x, alpha_y, omega));
+}
+
+double ggx_g2(double alpha_x, double alpha_y, const Eigen::Vector3d& omega_v,
+              const Eigen::Vector3d& omega_l) {
+  return 1 / (1 + ggx_lambda(alpha_x, alpha_y, omega_v) + ggx_lambda(alpha_x, alpha_y, omega_l));
+}
+
+GgxSampler::GgxSampler(const GgxLobe& lobe)
+    : alpha_x_(lobe.alpha_x),
+      alpha_y_(lobe.alpha_y),
+      omega_v_(lobe.omega_v()),
+      mirror_(-omega_v_.x(), -omega_v_.y(), omega_v_.z()),
+      stretched_v_(Eigen::Vector3d(alpha_x_ * omega_v_.x(), alpha_y_ * omega_v_.y(), omega_v_.z())
+                       .normalized()),
+      lambda_v_(ggx_lambda(alpha_x_, alpha_y_, omega_v_)) {
+  // vz (1 + Lambda) = (vz + sqrt(vz^2 + s^2))/2.
+  const double s_squared = stretched_sine_squared(alpha_x_, alpha_y_, omega_v_);
+  vz_one_plus_lambda_v_ = (omega_v_.z() + std::sqrt(square(omega_v_.z()) + s_squared)) / 2;
+}
+
+double GgxSampler::brdf_cosine_of(const Eigen::Vector3d& half,
+                                  const Eigen::Vector3d& omega_l) const {
+  if (!(omega_l.z() > 0))
+    return 0;
+  // G2/cos theta_v = 1/(vz (1 + Lambda(v) + Lambda(l))).
+  const double lambda_l = ggx_lambda(alpha_x_, alpha_y_, omega_l);
+  return ggx_ndf(alpha_x_, alpha_y_, half) /
+         (4 * (vz_one_plus_lambda_v_ + omega_v_.z() * lambda_l));
+}
+
+double GgxSampler::brdf_cosine(const Eigen::Vector3d& omega_l) const {
+  return brdf_cosine_of(omega_v_ + omega_l, omega_l);
+}
+
+double GgxSampler::brdf_cosine_at_offset(const Eigen::Vector3d& offset) const {
+  return brdf_cosine_of({offset.x(), offset.y(), 2 * omega_v_.z() + offset.z()}, mirror_ + offset);
+}
+
+double GgxSampler::vndf_density(const Eigen::Vector3d& omega_l) const {
+  return ggx_ndf(alpha_x_, alpha_y_, omega_v_ + omega_l) / (4 * vz_one_plus_lambda_v_);
+}
+
+double GgxSampler::vndf_density_at_offset(const Eigen::Vector3d& offset) const {
+  return ggx_ndf(alpha_x_, alpha_y_, {offset.x(), offset.y(), 2 * omega_v_.z() + offset.z()}) /
+         (4 * vz_one_plus_lambda_v_);
+}
+
+Eigen::Vector3d GgxSampler::visible_normal(double u_azimuth, double u_height) const {
+  const double azimuth = 2 * std::numbers::pi * u_azimuth;
+  return visible_normal(std::cos(azimuth), std::sin(azimuth), u_height);
+}
+
+// The cap is the part of the unit sphere with z > -v_z (v the stretched view direction). For a
+// point c uniform on it c + v has the direction of a visible normal at unit roughness, and
+// c_z + v_z = (1 - u)(1 + v_z), 1 - c_z = u (1 + v_z) need no subtraction of near numbers.
+Eigen::Vector3d GgxSampler::visible_normal(double cos_azimuth, double sin_azimuth,
+                                           double u_height) const {
+  const double depth = u_height * (1 + stretched_v_.z());
+  const double sine = std::sqrt(depth * (2 - depth));
+  return Eigen::Vector3d(alpha_x_ * (sine * cos_azimuth + stretched_v_.x()),
+                         alpha_y_ * (sine * sin_azimuth + stretched_v_.y()),
+                         (1 - u_height) * (1 + stretched_v_.z()))
+      .normalized();
+}
+
+// l = 2 (v.h) h - v and m = (-vx, -vy, vz), so
+//   l - m = 2 ((v.h) hx, (v.h) hy, (v.h) hz - vz),
+//   (v.h) hz - vz = (v.h - vz) hz + vz (hz - 1),  v.h - vz = vx hx + vy hy + vz (hz - 1),
+// with hz - 1 = -(hx^2 + hy^2)/(1 + hz): every term is as small as the lobe is narrow.
+GgxSample GgxSampler::reflect(const Eigen::Vector3d& omega_h) const {
+  const double hz_minus_one = -(square(omega_h.x()) + square(omega_h.y())) / (1 + omega_h.z());
+  const double vz = omega_v_.z();
+  const double v_dot_h_minus_vz =
+      omega_v_.x() * omega_h.x() + omega_v_.y() * omega_h.y() + vz * hz_minus_one;
+  GgxSample sample;
+  sample.v_dot_h = vz + v_dot_h_minus_vz;
+  sample.offset = 2 * Eigen::Vector3d(sample.v_dot_h * omega_h.x(), sample.v_dot_h * omega_h.y(),
+                                      v_dot_h_minus_vz * omega_h.z() + vz * hz_minus_one);
+  sample.omega_l = mirror_ + sample.offset;
+  if (sample.omega_l.z() > 0)
+    sample.weight =
+        (1 + lambda_v_) / (1 + lambda_v_ + ggx_lambda(alpha_x_, alpha_y_, sample.omega_l));
+  return sample;
+}
+
+}  // namespace ltc
