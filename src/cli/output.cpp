@@ -51,9 +51,7 @@ std::string shell_quoted(std::string_view argument) {
 
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   std::error_code ignored;
-  fs::path missing = fs::absolute(path_).lexically_normal();
-  if (!missing.has_filename())  // "out/"
-    missing = missing.parent_path();
+  fs::path missing = fs::absolute(path_);  // as written: "a/../b" creates a too
   for (; missing.has_relative_path() && !fs::exists(missing, ignored);
        missing = missing.parent_path())
     created_.insert(created_.begin(), missing);

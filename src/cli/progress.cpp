@@ -47,13 +47,13 @@ std::string duration_text(double seconds) {
 }
 
 std::string bar_text(const StageState& state, std::size_t columns) {
-  constexpr std::size_t width = 30;
+  constexpr std::size_t width = 20;  // with all the rest within 80 columns
   const auto filled = static_cast<std::size_t>(fraction(state) * width);
   std::string bar(filled, '=');
   if (filled < width)
     bar += '>';
   std::string text =
-      fmt::format("{:<12} [{:<{}}] {:3.0f} %  {}/{}{}", state.name, bar, width,
+      fmt::format("{:<11} [{:<{}}] {:3.0f} %  {}/{}{}", state.name, bar, width,
                   100 * fraction(state), state.done, state.total, rate_and_rest(state, "  "));
   if (columns > 0 && text.size() >= columns)
     text.resize(columns - 1);  // the last column would make some terminals wrap
