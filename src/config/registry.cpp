@@ -52,7 +52,7 @@ std::vector<Key> table_keys() {
 std::vector<Key> fit_keys() {
   const Choices<SolverKind> solvers = {{"gauss-newton", SolverKind::gauss_newton}, {"sgd", SolverKind::sgd}};
   const Choices<TargetKind> targets = {{"weighted", TargetKind::weighted}, {"rejection", TargetKind::rejection}};
-  const Choices<StartKind> starts = {{"first-order", StartKind::first_order}, {"identity", StartKind::identity}, {"random", StartKind::random}};
+  const Choices<StartKind> starts = {{"first-order", StartKind::first_order}, {"moments", StartKind::moments}, {"identity", StartKind::identity}, {"random", StartKind::random}};
   return {
       key("fit.solver", [](Draft& d) { return &d.config.fit.solver; }, solvers, "which optimiser fits the matrices"),
       key("fit.target", [](Draft& d) { return &d.config.fit.target; }, targets, "how the lobe is sampled: weighted lattice, or algorithm 1 with rejection as published"),
@@ -61,9 +61,11 @@ std::vector<Key> fit_keys() {
       key("fit.gauss_newton.coarse_samples", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_samples; }, {64, 65536}, "cosine samples of the coarse phase"),
       key("fit.gauss_newton.coarse_directions", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_directions; }, {4, 4096}, "projection directions of the coarse phase"),
       key("fit.gauss_newton.coarse_steps", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_steps; }, {0, 1000}, "most steps of the coarse phase, for each start"),
+      key("fit.gauss_newton.coarse_tolerance", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_tolerance; }, {0, 1}, "the coarse phase ends when a step gains less than this share of the loss"),
       key("fit.gauss_newton.samples", [](Draft& d) { return &d.config.fit.gauss_newton.samples; }, {64, 65536}, "cosine samples of the fine phase"),
       key("fit.gauss_newton.directions", [](Draft& d) { return &d.config.fit.gauss_newton.directions; }, {4, 4096}, "projection directions of the fine phase"),
       key("fit.gauss_newton.steps", [](Draft& d) { return &d.config.fit.gauss_newton.steps; }, {1, 1000}, "most steps of the fine phase"),
+      key("fit.gauss_newton.tolerance", [](Draft& d) { return &d.config.fit.gauss_newton.tolerance; }, {0, 1}, "the fine phase ends when a step gains less than this share of the loss"),
       key("fit.gauss_newton.target_samples", [](Draft& d) { return &d.config.fit.gauss_newton.target_samples; }, {64, 1048576}, "GGX samples that the target's quantiles come from"),
       key("fit.gauss_newton.starts", [](Draft& d) { return &d.config.fit.gauss_newton.starts; }, {1, 16}, "starting points tried in the coarse phase"),
       key("fit.gauss_newton.neighbour_sweeps", [](Draft& d) { return &d.config.fit.gauss_newton.neighbour_sweeps; }, {0, 16}, "how often an entry tries its neighbours' solutions"),
@@ -74,6 +76,7 @@ std::vector<Key> fit_keys() {
       key("fit.sgd.learning_rate", [](Draft& d) { return &d.config.fit.sgd.learning_rate; }, above(0, 1000), "learning rate"),
       key("fit.sgd.step_scale", [](Draft& d) { return &d.config.fit.sgd.step_scale; }, above(0, 1000), "the step size is learning_rate * step_scale * step_decay^step"),
       key("fit.sgd.step_decay", [](Draft& d) { return &d.config.fit.sgd.step_decay; }, above(0, 1), "factor on the step size after each step"),
+      key("fit.sgd.averaged_steps", [](Draft& d) { return &d.config.fit.sgd.averaged_steps; }, {1, 10'000'000}, "the last steps whose matrices are averaged, at most all"),
       key("fit.sgd.start", [](Draft& d) { return &d.config.fit.sgd.start; }, starts, "where the descent starts"),
       key("fit.sgd.scaled_variables", [](Draft& d) { return &d.config.fit.sgd.scaled_variables; }, "descend in the mirror's frame divided by the roughness, not in M itself"),
   };

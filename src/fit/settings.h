@@ -7,9 +7,10 @@
 
 namespace ltc {
 
-enum class SolverKind { gauss_newton, sgd };   // "gauss-newton", "sgd"
+enum class SolverKind { gauss_newton, sgd };    // "gauss-newton", "sgd"
 enum class TargetKind { weighted, rejection };  // "weighted", "rejection"
-enum class StartKind { first_order, identity, random };  // "first-order", "identity", "random"
+// "first-order", "moments", "identity", "random"
+enum class StartKind { first_order, moments, identity, random };
 
 // Quantile Gauss-Newton, from a coarse sample set to a fine one.
 struct GaussNewtonSettings {
@@ -20,8 +21,11 @@ struct GaussNewtonSettings {
   int directions = 32;         // projection directions of the fine phase, [4, 4096]
   int steps = 6;               // most steps of the fine phase, [1, 1000]
   int target_samples = 4096;   // GGX samples that the target's quantiles come from, [64, 1048576]
-  int starts = 2;              // starting points tried in the coarse phase, [1, 16]
-  int neighbour_sweeps = 1;    // how often an entry tries its neighbours' solutions, [0, 16]
+  // A phase ends when a step gains less than this share of the loss, [0, 1].
+  double coarse_tolerance = 3e-3;
+  double tolerance = 1e-3;
+  int starts = 2;            // starting points tried in the coarse phase, [1, 16]
+  int neighbour_sweeps = 1;  // how often an entry tries its neighbours' solutions, [0, 16]
 };
 
 // Algorithm 3 of Aakash et al. 2022: stochastic gradient descent, step size
@@ -33,6 +37,7 @@ struct SgdSettings {
   double learning_rate = 1.0;  // (0, 1000]
   double step_scale = 0.1;     // (0, 1000]
   double step_decay = 0.999;   // (0, 1]
+  int averaged_steps = 1;      // the last steps whose matrices are averaged, [1, steps]
   StartKind start = StartKind::identity;
   // Descend in the entries of M as published (false), or in those of M expressed in the mirror's
   // frame and divided by the roughness (true), where lobes of every width have the same scale.

@@ -5,10 +5,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <string_view>
+#include <memory>
 #include <vector>
 
 #include "brdf/ggx.h"
+#include "core/progress.h"
+#include "fit/settings.h"
 
 namespace ltc {
 
@@ -19,19 +21,51 @@ struct FitStep {
   double damping = 0;        // Levenberg-Marquardt damping, or the step size of a descent
   double seconds = 0;        // since the fit began
   bool accepted = true;
+  int start = 0;  // which starting point it belongs to; the last phase has the highest
 };
 
 enum class FitOutcome {
-  converged,       // no further gain above the sampling noise; the matrix is the best found
-  step_limit,      // the steps were spent; the matrix is the best found
-  non_finite,      // no finite matrix was found; the matrix is NaN
+  converged,   // no gain worth another step; the matrix is the best found
+  step_limit,  // the steps were spent; the matrix is the best found
+  non_finite,  // no finite matrix was found; the matrix is NaN
 };
 
 struct FitResult {
   Eigen::Matrix3d matrix;  // M, neither aligned nor normalised; determinant > 0
   double loss = 0;         // as the solver saw it, on its own samples
-  int steps = 0;
+  int steps = 0;           // spent on all starts together
   FitOutcome outcome = FitOutcome::step_limit;
 };
+
+struct FitRequest {
+  GgxLobe lobe;
+  // Seeds whatever is random about the fit of this lobe.
+  std::uint64_t seed = 0;
+  // Matrices to start from; empty for the solver's own starting points.
+  std::vector<Eigen::Matrix3d> starts;
+  // Where not null and a stop is asked for, the fit ends early with whatever it has.
+  const Progress* progress = nullptr;
+};
+
+// The buffers of one fit at a time; one a thread, reused so that no fit allocates.
+struct FitWorkspace;
+struct FitWorkspaceDeleter {
+  void operator()(FitWorkspace* workspace) const;
+};
+using FitWorkspacePointer = std::unique_ptr<FitWorkspace, FitWorkspaceDeleter>;
+FitWorkspacePointer make_fit_workspace();
+
+// Immutable once made and shared by all threads. `fit` is a function of the request alone: the same
+// bits whatever was fitted before in the workspace.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  // `trace`, where not null, gets a record of every step.
+  virtual FitResult fit(const FitRequest& request, FitWorkspace& workspace,
+                        std::vector<FitStep>* trace) const = 0;
+};
+
+// The settings are within their ranges (the config sees to that).
+std::unique_ptr<Solver> make_solver(const FitSettings& settings);
 
 }  // namespace ltc

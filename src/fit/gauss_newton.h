@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// Levenberg-Marquardt on the quantile model: one start, one sample set, a fixed number of steps.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fit/quantile_model.h"
+#include "fit/solver.h"
+
+namespace ltc {
+
+struct DescentOptions {
+  int steps = 10;           // most steps, accepted or not
+  double tolerance = 1e-3;  // stop when an accepted step gains less than this share of the loss
+  double damping = 1e-2;    // first damping, relative to the curvature's diagonal
+  int phase = 0;            // what a trace calls these steps
+};
+
+struct Descent {
+  Eigen::Matrix3d frame_matrix;  // P, third column of unit length
+  double loss = 0;               // of the model's samples, without the prior
+  int steps = 0;
+  bool converged = false;
+};
+
+// Minimises the model over the free entries of P from `start`. A weak prior (design: sharp lobes)
+// holds columns 0 and 1 near the first-order P0 where the samples say nothing. Steps that lose,
+// turn the determinant or are not finite are not taken. `trace` may be null.
+Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const FreeEntries& free,
+                 const CosineSet& cosines, const TargetQuantiles& target,
+                 const DescentOptions& options, ModelWorkspace& workspace,
+                 std::vector<FitStep>* trace);
+
+}  // namespace ltc

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The hot loops, compiled once for every vector unit and chosen at run time.
+#include "fit/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fit/kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace ltc::kernels::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+// Never wider than a row, so that every loop below sees a whole number of vectors.
+using Floats = hn::CappedTag<float, row_width>;
+using Ints = hn::Rebind<std::int32_t, Floats>;
+using V = hn::Vec<Floats>;
+
+void transform_samples(const float* p, float alpha_x, float alpha_y, const float* cosine_x,
+                       const float* cosine_y, const float* cosine_z, std::size_t count, float* gx,
+                       float* gy, float* gz, float* rows) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  const V ax = hn::Set(d, alpha_x), ay = hn::Set(d, alpha_y), one = hn::Set(d, 1.0f);
+  const V p00 = hn::Set(d, p[0]), p01 = hn::Set(d, p[1]), p02 = hn::Set(d, p[2]);
+  const V p10 = hn::Set(d, p[3]), p11 = hn::Set(d, p[4]), p12 = hn::Set(d, p[5]);
+  const V p20 = hn::Set(d, p[6]), p21 = hn::Set(d, p[7]), p22 = hn::Set(d, p[8]);
+  HWY_ALIGN float columns[row_width * row_width];
+  for (std::size_t i = 0; i < count; i += lanes) {
+    const V x = hn::Mul(ax, hn::Load(d, cosine_x + i));
+    const V y = hn::Mul(ay, hn::Load(d, cosine_y + i));
+    const V z = hn::Load(d, cosine_z + i);
+    const V fx = hn::MulAdd(p00, x, hn::MulAdd(p01, y, hn::Mul(p02, z)));
+    const V fy = hn::MulAdd(p10, x, hn::MulAdd(p11, y, hn::Mul(p12, z)));
+    const V fz = hn::MulAdd(p20, x, hn::MulAdd(p21, y, hn::Mul(p22, z)));
+    const V lateral = hn::MulAdd(fx, fx, hn::Mul(fy, fy));
+    const V length = hn::Sqrt(hn::MulAdd(fz, fz, lateral));
+    const V scale = hn::Div(one, length);
+    const V ox = hn::Mul(fx, scale), oy = hn::Mul(fy, scale);
+    // fz/|f| - 1 without cancellation where fz > 0; where fz <= 0 nothing cancels.
+    const V ahead = hn::Neg(hn::Div(hn::Mul(lateral, scale), hn::Add(length, fz)));
+    const V behind = hn::Sub(hn::Mul(fz, scale), one);
+    const V oz = hn::IfThenElse(hn::Gt(fz, hn::Zero(d)), ahead, behind);
+    hn::Store(ox, d, gx + i);
+    hn::Store(oy, d, gy + i);
+    hn::Store(oz, d, gz + i);
+    const V a0 = hn::Mul(x, scale), a1 = hn::Mul(y, scale), a2 = hn::Mul(z, scale);
+    hn::Store(hn::Mul(ox, a0), d, columns + 0 * lanes);
+    hn::Store(hn::Mul(ox, a1), d, columns + 1 * lanes);
+    hn::Store(hn::Mul(ox, a2), d, columns + 2 * lanes);
+    hn::Store(hn::Mul(oy, a0), d, columns + 3 * lanes);
+    hn::Store(hn::Mul(oy, a1), d, columns + 4 * lanes);
+    hn::Store(hn::Mul(oy, a2), d, columns + 5 * lanes);
+    hn::Store(hn::Mul(oz, a0), d, columns + 6 * lanes);
+    hn::Store(hn::Mul(oz, a1), d, columns + 7 * lanes);
+    hn::Store(hn::Mul(oz, a2), d, columns + 8 * lanes);
+    hn::Store(a0, d, columns + 9 * lanes);
+    hn::Store(a1, d, columns + 10 * lanes);
+    hn::Store(a2, d, columns + 11 * lanes);
+    hn::Store(a0, d, columns + 12 * lanes);
+    hn::Store(a1, d, columns + 13 * lanes);
+    hn::Store(a2, d, columns + 14 * lanes);
+    hn::Store(one, d, columns + 15 * lanes);
+    float* row = rows + i * row_width;
+    for (std::size_t sample = 0; sample < lanes; ++sample)
+      for (std::size_t entry = 0; entry < row_width; ++entry)
+        row[sample * row_width + entry] = columns[entry * lanes + sample];
+  }
+}
+
+void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy, const float* gz,
+                     std::size_t count, std::size_t bin_count, float* xi, std::int32_t* bins) {
+  const Floats d;
+  const Ints di;
+  const V dx = hn::Set(d, map.direction_x), dy = hn::Set(d, map.direction_y);
+  const V dz = hn::Set(d, map.direction_z);
+  const V centre = hn::Set(d, map.centre), inverse_scale = hn::Set(d, map.inverse_scale);
+  const V one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f * static_cast<float>(bin_count));
+  const auto last = hn::Set(di, static_cast<std::int32_t>(bin_count) - 1);
+  const auto zero = hn::Zero(di);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const V projection =
+        hn::MulAdd(dx, hn::Load(d, gx + i),
+                   hn::MulAdd(dy, hn::Load(d, gy + i), hn::Mul(dz, hn::Load(d, gz + i))));
+    const V z = hn::Mul(hn::Sub(projection, centre), inverse_scale);
+    const V t = hn::Div(z, hn::Sqrt(hn::MulAdd(z, z, one)));
+    const auto bin = hn::ConvertTo(di, hn::MulAdd(t, half, half));
+    hn::Store(projection, d, xi + i);
+    hn::Store(hn::Max(zero, hn::Min(bin, last)), di, bins + i);
+  }
+}
+
+void accumulate_rows(const float* xi, const std::int32_t* bins, const float* rows,
+                     std::size_t count, float direction_z, float* sums, std::int32_t* populations) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  // Factor of lane l is constant[l] + xi slope[l].
+  HWY_ALIGN float constant[row_width], slope[row_width];
+  for (std::size_t lane = 0; lane < row_width; ++lane) {
+    constant[lane] = lane < 9 ? direction_z : (lane >= 12 && lane < 15 ? 1.0f : 0.0f);
+    slope[lane] = lane < 12 || lane == 15 ? 1.0f : 0.0f;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const V projection = hn::Set(d, xi[i]);
+    const float* row = rows + i * row_width;
+    float* sum = sums + static_cast<std::size_t>(bins[i]) * row_width;
+    for (std::size_t part = 0; part < row_width; part += lanes) {
+      const V factor =
+          hn::MulAdd(projection, hn::Load(d, slope + part), hn::Load(d, constant + part));
+      hn::Store(hn::MulAdd(factor, hn::Load(d, row + part), hn::Load(d, sum + part)), d,
+                sum + part);
+    }
+    ++populations[bins[i]];
+  }
+}
+
+void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,
+                        std::size_t count, float* sums) {
+  for (std::size_t i = 0; i < count; ++i) {
+    float* sum = sums + 2 * static_cast<std::size_t>(bins[i]);
+    sum[0] += weights[i];
+    sum[1] += weights[i] * xi[i];
+  }
+}
+
+void accumulate_outer_products(const float* vectors, const float* factors, std::size_t blocks,
+                               float* hessian) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t part = 0; part < row_width; part += lanes) {
+    if (part >= 9)
+      break;
+    V sum[9];
+    for (std::size_t row = 0; row < 9; ++row)
+      sum[row] = hn::Load(d, hessian + row * row_width + part);
+    for (std::size_t block = 0; block < blocks; ++block) {
+      const float* vector = vectors + block * row_width;
+      const V scaled = hn::Mul(hn::Set(d, factors[block]), hn::Load(d, vector + part));
+      for (std::size_t row = 0; row < 9; ++row)
+        sum[row] = hn::MulAdd(hn::Set(d, vector[row]), scaled, sum[row]);
+    }
+    for (std::size_t row = 0; row < 9; ++row)
+      hn::Store(sum[row], d, hessian + row * row_width + part);
+  }
+}
+
+void sample_target(const TargetParameters& parameters, const float* cos_azimuth,
+                   const float* sin_azimuth, const float* height, std::size_t count, float* gx,
+                   float* gy, float* gz, float* weights) {
+  const Floats d;
+  const V one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), half = hn::Set(d, 0.5f);
+  const V zero = hn::Zero(d);
+  const float stretched_x = parameters.alpha_x * parameters.view_x;
+  const float stretched_y = parameters.alpha_y * parameters.view_y;
+  const float stretched_length =
+      hn::GetLane(hn::Sqrt(hn::Set(d, stretched_x * stretched_x + stretched_y * stretched_y +
+                                          parameters.view_z * parameters.view_z)));
+  const V ax = hn::Set(d, parameters.alpha_x), ay = hn::Set(d, parameters.alpha_y);
+  const V vx = hn::Set(d, parameters.view_x), vy = hn::Set(d, parameters.view_y);
+  const V vz = hn::Set(d, parameters.view_z);
+  const V sx = hn::Set(d, stretched_x / stretched_length);
+  const V sy = hn::Set(d, stretched_y / stretched_length);
+  const V sz = hn::Set(d, parameters.view_z / stretched_length);
+  // 1 + Lambda(v) = (1 + |v stretched| / vz) / 2, equation (5).
+  const V shadow_view = hn::Set(d, 0.5f * (1.0f + stretched_length / parameters.view_z));
+  const float* q = parameters.rotation;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    // A point c of the spherical cap c_z in (-sz, 1]; the microfacet normal is c + s, unstretched.
+    const V u = hn::Load(d, height + i);
+    const V drop = hn::Mul(u, hn::Add(one, sz));  // 1 - c_z
+    const V cz = hn::Sub(one, drop);
+    const V radius = hn::Sqrt(hn::Max(zero, hn::Mul(drop, hn::Sub(two, drop))));
+    const V nx = hn::Mul(ax, hn::MulAdd(radius, hn::Load(d, cos_azimuth + i), sx));
+    const V ny = hn::Mul(ay, hn::MulAdd(radius, hn::Load(d, sin_azimuth + i), sy));
+    const V nz = hn::Max(zero, hn::Add(cz, sz));
+    const V lateral = hn::MulAdd(nx, nx, hn::Mul(ny, ny));
+    const V length = hn::Sqrt(hn::MulAdd(nz, nz, lateral));
+    const V scale = hn::Div(one, length);
+    const V hx = hn::Mul(nx, scale), hy = hn::Mul(ny, scale);
+    const V hz_less_one = hn::Neg(hn::Div(hn::Mul(lateral, scale), hn::Add(length, nz)));
+    // v.h - vz and the offset of the reflected direction 2 (v.h) h - v from the mirror's, both as
+    // sums of small terms.
+    const V dot_less_vz = hn::MulAdd(vx, hx, hn::MulAdd(vy, hy, hn::Mul(vz, hz_less_one)));
+    const V dot = hn::Add(dot_less_vz, vz);
+    const V ox = hn::Mul(two, hn::Mul(dot, hx));
+    const V oy = hn::Mul(two, hn::Mul(dot, hy));
+    const V oz = hn::Mul(two, hn::MulAdd(dot, hz_less_one, dot_less_vz));
+    const V lx = hn::Sub(ox, vx), ly = hn::Sub(oy, vy), lz = hn::Add(oz, vz);
+    // G2/G1 = (1 + Lambda(v)) / (1 + Lambda(v) + Lambda(l)), Lambda(l) = (|l stretched|/lz - 1)/2.
+    const V slx = hn::Mul(ax, lx), sly = hn::Mul(ay, ly);
+    const V stretched_light = hn::Sqrt(hn::MulAdd(slx, slx, hn::MulAdd(sly, sly, hn::Mul(lz, lz))));
+    const V numerator = hn::Mul(shadow_view, lz);
+    const V denominator = hn::MulAdd(half, hn::Sub(stretched_light, lz), hn::Mul(shadow_view, lz));
+    const V weight = hn::Div(numerator, denominator);
+    hn::Store(hn::IfThenElseZero(hn::Gt(lz, zero), weight), d, weights + i);
+    hn::Store(hn::MulAdd(hn::Set(d, q[0]), ox,
+                         hn::MulAdd(hn::Set(d, q[3]), oy, hn::Mul(hn::Set(d, q[6]), oz))),
+              d, gx + i);
+    hn::Store(hn::MulAdd(hn::Set(d, q[1]), ox,
+                         hn::MulAdd(hn::Set(d, q[4]), oy, hn::Mul(hn::Set(d, q[7]), oz))),
+              d, gy + i);
+    // m . (l - m) = -|l - m|^2 / 2 for unit vectors.
+    const V squared = hn::MulAdd(ox, ox, hn::MulAdd(oy, oy, hn::Mul(oz, oz)));
+    hn::Store(hn::Neg(hn::Mul(half, squared)), d, gz + i);
+  }
+}
+
+}  // namespace ltc::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ltc::kernels {
+
+HWY_EXPORT(transform_samples);
+HWY_EXPORT(project_and_bin);
+HWY_EXPORT(accumulate_rows);
+HWY_EXPORT(accumulate_weights);
+HWY_EXPORT(accumulate_outer_products);
+HWY_EXPORT(sample_target);
+
+void transform_samples(const float* frame_matrix, float alpha_x, float alpha_y,
+                       const float* cosine_x, const float* cosine_y, const float* cosine_z,
+                       std::size_t count, float* gx, float* gy, float* gz, float* rows) {
+  HWY_DYNAMIC_DISPATCH(transform_samples)
+  (frame_matrix, alpha_x, alpha_y, cosine_x, cosine_y, cosine_z, count, gx, gy, gz, rows);
+}
+
+void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy, const float* gz,
+                     std::size_t count, std::size_t bin_count, float* xi, std::int32_t* bins) {
+  HWY_DYNAMIC_DISPATCH(project_and_bin)(map, gx, gy, gz, count, bin_count, xi, bins);
+}
+
+void accumulate_rows(const float* xi, const std::int32_t* bins, const float* rows,
+                     std::size_t count, float direction_z, float* sums, std::int32_t* populations) {
+  HWY_DYNAMIC_DISPATCH(accumulate_rows)(xi, bins, rows, count, direction_z, sums, populations);
+}
+
+void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,
+                        std::size_t count, float* sums) {
+  HWY_DYNAMIC_DISPATCH(accumulate_weights)(xi, bins, weights, count, sums);
+}
+
+void accumulate_outer_products(const float* vectors, const float* factors, std::size_t blocks,
+                               float* hessian) {
+  HWY_DYNAMIC_DISPATCH(accumulate_outer_products)(vectors, factors, blocks, hessian);
+}
+
+void sample_target(const TargetParameters& parameters, const float* cos_azimuth,
+                   const float* sin_azimuth, const float* height, std::size_t count, float* gx,
+                   float* gy, float* gz, float* weights) {
+  HWY_DYNAMIC_DISPATCH(sample_target)
+  (parameters, cos_azimuth, sin_azimuth, height, count, gx, gy, gz, weights);
+}
+
+}  // namespace ltc::kernels
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The local model that a Gauss-Newton step minimises: loss, gradient and curvature of the
+// sliced-Wasserstein distance as a function of the frame matrix P.
+//
+// For a projection direction d let F be the distribution function of d . omega over the LTC and G
+// the one over the GGX lobe. The loss is mean_d of int_0^1 |F^-1(u) - G^-1(u)| du (equation 9 of
+// Aakash et al. 2022). What moves when P moves is the quantile function, and its derivative is a
+// conditional mean,
+//     dF^-1(u)/dP = E[dx/dP | x = F^-1(u)],   dx/dP = (1/|P a'|) (d - x f) a'^T,  a' = A omega_o.
+// Samples are cut into blocks of neighbouring quantiles (here the bins of kernels.h); with J the
+// block's mean dx/dP (nine numbers), r its mean difference from the target's quantiles and p its
+// share of the samples, iteratively reweighted least squares for the L1 loss has
+//     gradient = sum p r/(|r| + e) J,     curvature = sum p/(|r| + e) J J^T.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "core/aligned.h"
+#include "fit/kernels.h"
+#include "fit/lobe_frame.h"
+#include "fit/sample_sets.h"
+#include "fit/settings.h"
+
+namespace ltc {
+
+using Vector9 = Eigen::Matrix<double, 9, 1>;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+// Samples of the GGX lobe as offsets from its mirror direction, in the mirror's frame.
+struct TargetSamples {
+  AlignedFloats gx, gy, gz, weight;
+  std::size_t size = 0;  // multiple of 16
+};
+
+// Weighted mean and covariance of every eighth sample: enough to place bins and starts.
+struct TargetMoments {
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d covariance;
+};
+TargetMoments target_moments(const TargetSamples& samples);
+
+// Weighted VNDF samples on a lattice (weights G2/G1): so that the lattice's noise is the only one.
+void sample_weighted_target(const LobeFrame& frame, const TargetLattice& lattice,
+                            TargetSamples& samples);
+
+// `count` samples of algorithm 1 (VNDF and rejection), all of weight 1, padded with weight 0.
+void sample_rejection_target(const LobeFrame& frame, std::size_t count, std::uint64_t seed,
+                             TargetSamples& samples);
+
+// The target seen along a set of directions: for each, mass and first moment of the lobe below
+// every bin edge.
+class TargetQuantiles {
+ public:
+  // Bins `samples` along every direction. Keeps no reference to its arguments.
+  void build(const TargetSamples& samples, const std::vector<Eigen::Vector3f>& directions,
+             std::size_t bin_count, AlignedFloats& xi, AlignedVector<std::int32_t>& bins);
+
+  std::size_t direction_count() const { return maps_.size(); }
+  std::size_t bin_count() const { return bin_count_; }
+  const kernels::ProjectionMap& map(std::size_t direction) const { return maps_[direction]; }
+
+  // Standard deviation of the target's projections, averaged over the directions.
+  double spread() const { return spread_; }
+
+  // Mass below edge j and the integral of the quantile function up to it, j = 0 … bin_count.
+  const double* mass(std::size_t direction) const {
+    return mass_.data() + direction * (bin_count_ + 1);
+  }
+  const double* moment(std::size_t direction) const {
+    return moment_.data() + direction * (bin_count_ + 1);
+  }
+  // Edge j of the bins along a direction, as a projection xi; infinite at both ends.
+  double edge(std::size_t direction, std::size_t j) const {
+    return maps_[direction].centre + unit_edges_[j] / maps_[direction].inverse_scale;
+  }
+
+ private:
+  std::size_t bin_count_ = 0;
+  double spread_ = 0;
+  std::vector<kernels::ProjectionMap> maps_;
+  std::vector<double> mass_, moment_, unit_edges_;
+  AlignedFloats sums_;
+};
+
+// dx/dP summed over the samples of a bin (nine numbers, row-major), from the bin's row sums.
+inline void jacobian_of_sums(const kernels::ProjectionMap& map, const float* sums,
+                             float* jacobian) {
+  for (int c = 0; c < 3; ++c) {
+    jacobian[c] = map.direction_x * sums[12 + c] - sums[c];
+    jacobian[3 + c] = map.direction_y * sums[12 + c] - sums[3 + c];
+    // (d_z - x f_z) a with f_z = 1 + g_z and x = xi + d_z: the two d_z cancel on paper, not in
+    // floating point.
+    jacobian[6 + c] = -sums[9 + c] - sums[6 + c];
+  }
+}
+
+struct ModelValue {
+  double loss = 0;
+  Vector9 gradient;   // with respect to P, row-major
+  Matrix9 curvature;  // symmetric, positive semidefinite
+};
+
+// Everything an evaluation writes to; one a thread, reused from entry to entry.
+struct ModelWorkspace {
+  AlignedFloats gx, gy, gz, rows, xi, sums, vectors, factors;
+  AlignedVector<std::int32_t> bins, populations;
+  std::vector<double> target_means;
+};
+
+// Evaluates the model at P. `smoothing` is e above, in units of xi.
+void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
+                    const CosineSet& cosines, const TargetQuantiles& target, double smoothing,
+                    ModelWorkspace& workspace, ModelValue& value);
+
+}  // namespace ltc

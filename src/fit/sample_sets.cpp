@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "fit/sample_sets.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace ltc {
+namespace {
+
+double fraction(double value) {
+  return value - std::floor(value);
+}
+
+std::size_t rounded_up(std::size_t count) {
+  return (count + 15) / 16 * 16;
+}
+
+// Point i of n: the height runs through the strata's midpoints, the azimuth by the golden ratio.
+struct LatticePoint {
+  double azimuth, height;
+};
+LatticePoint lattice_point(std::size_t i, std::size_t n, double shift) {
+  constexpr double golden = 0.61803398874989484820;
+  const double height = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+  const double azimuth = fraction(0.5 + shift + static_cast<double>(i) * golden);
+  return {2 * std::numbers::pi * azimuth, height};
+}
+
+}  // namespace
+
+CosineSet make_cosine_set(std::size_t count, double shift) {
+  const std::size_t n = rounded_up(count);
+  CosineSet set{AlignedFloats(n), AlignedFloats(n), AlignedFloats(n)};
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto [azimuth, height] = lattice_point(i, n, shift);
+    const double radius = std::sqrt(height);
+    set.x[i] = static_cast<float>(radius * std::cos(azimuth));
+    set.y[i] = static_cast<float>(radius * std::sin(azimuth));
+    set.z[i] = static_cast<float>(std::sqrt(1 - height));
+  }
+  return set;
+}
+
+TargetLattice make_target_lattice(std::size_t count, double shift) {
+  const std::size_t n = rounded_up(count);
+  TargetLattice lattice{AlignedFloats(n), AlignedFloats(n), AlignedFloats(n)};
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto [azimuth, height] = lattice_point(i, n, shift);
+    lattice.cos_azimuth[i] = static_cast<float>(std::cos(azimuth));
+    lattice.sin_azimuth[i] = static_cast<float>(std::sin(azimuth));
+    lattice.height[i] = static_cast<float>(height);
+  }
+  return lattice;
+}
+
+std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count) {
+  std::vector<Eigen::Vector3d> directions(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    const double azimuth =
+        2 * std::numbers::pi * fraction(static_cast<double>(i) / std::numbers::phi);
+    const double radius = std::sqrt(1 - z * z);
+    directions[i] = {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
+  }
+  return directions;
+}
+
+std::vector<Eigen::Vector3d> random_directions(std::size_t count, std::uint64_t seed) {
+  // Uniform height and azimuth (Archimedes). Spelt out: the standard distributions differ between
+  // implementations.
+  std::mt19937_64 generator(seed);
+  const auto uniform = [&] { return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53; };
+  std::vector<Eigen::Vector3d> directions(count);
+  for (auto& direction : directions) {
+    const double z = 2 * uniform() - 1, azimuth = 2 * std::numbers::pi * uniform();
+    const double radius = std::sqrt(1 - z * z);
+    direction = {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
+  }
+  return directions;
+}
+
+}  // namespace ltc

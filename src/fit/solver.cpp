@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "fit/solver.h"
+
+#include "fit/gauss_newton_solver.h"
+#include "fit/sgd_solver.h"
+#include "fit/workspace.h"
+
+namespace ltc {
+
+void FitWorkspaceDeleter::operator()(FitWorkspace* workspace) const {
+  delete workspace;
+}
+
+FitWorkspacePointer make_fit_workspace() {
+  return FitWorkspacePointer(new FitWorkspace);
+}
+
+std::unique_ptr<Solver> make_solver(const FitSettings& settings) {
+  if (settings.solver == SolverKind::sgd)
+    return std::make_unique<SgdSolver>(settings.sgd, settings.target);
+  return std::make_unique<GaussNewtonSolver>(settings.gauss_newton, settings.target);
+}
+
+}  // namespace ltc

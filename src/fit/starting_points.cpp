@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "fit/starting_points.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace ltc {
+namespace {
+
+// A clamped cosine (M = I) has mean direction length 2/3 and standard deviation 1/2 along x, so a
+// column of length s goes with a standard deviation of about s/2.
+constexpr double column_per_deviation = 2.0;
+
+// A column of M never starts thinner than this share of the other one.
+constexpr double thinnest_start = 0.1;
+
+}  // namespace
+
+Eigen::Matrix3d admissible(const Eigen::Matrix3d& frame_matrix, const FreeEntries& free) {
+  Eigen::Matrix3d p = frame_matrix;
+  for (int entry = 0; entry < 9; ++entry)
+    if (!free[entry])
+      p(entry / 3, entry % 3) = 0;
+  if (p.determinant() < 0)
+    p.col(1) = -p.col(1);
+  return p;
+}
+
+Eigen::Matrix3d first_order_start(const LobeFrame& frame) {
+  Eigen::Matrix3d p = frame.first_order;
+  const double width_x = frame.lobe.alpha_x * p.col(0).norm();
+  const double width_y = frame.lobe.alpha_y * p.col(1).norm();
+  if (width_y < thinnest_start * width_x)
+    p.col(1) *= thinnest_start * width_x / width_y;
+  else if (width_x < thinnest_start * width_y)
+    p.col(0) *= thinnest_start * width_y / width_x;
+  return admissible(p, free_entries(frame.lobe));
+}
+
+Eigen::Matrix3d moment_start(const LobeFrame& frame, const TargetSamples& target) {
+  const TargetMoments moments = target_moments(target);
+  const Eigen::Vector3d axis = (moments.mean + Eigen::Vector3d::UnitZ()).normalized();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(across * moments.covariance *
+                                                                across);
+  // Eigenvalues ascend: the last two belong to the plane across the axis.
+  const double largest = std::sqrt(std::max(spectrum.eigenvalues()[2], 1e-30));
+  const double smaller =
+      std::max(std::sqrt(std::max(spectrum.eigenvalues()[1], 0.0)), 1e-3 * largest);
+  Eigen::Matrix3d m;
+  m.col(0) = column_per_deviation * largest * spectrum.eigenvectors().col(2);
+  m.col(1) = column_per_deviation * smaller * spectrum.eigenvectors().col(1);
+  m.col(2) = axis;
+  if (m.determinant() < 0)
+    m.col(1) = -m.col(1);
+  // Of all rotations about z, which leave the lobe as it is, the one nearest to the first-order
+  // matrix: only so do the symmetry zeros fall on their places.
+  const Eigen::Vector3d roughness(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
+  const Eigen::Matrix3d first_order = frame.first_order * roughness.asDiagonal();
+  const Eigen::Matrix2d overlap = m.leftCols<2>().transpose() * first_order.leftCols<2>();
+  const double angle = std::atan2(overlap(1, 0) - overlap(0, 1), overlap(0, 0) + overlap(1, 1));
+  Eigen::Matrix2d turn;
+  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  m.leftCols<2>() = (m.leftCols<2>() * turn).eval();
+  return admissible(m * roughness.cwiseInverse().asDiagonal(), free_entries(frame.lobe));
+}
+
+Eigen::Matrix3d identity_start(const LobeFrame& frame) {
+  return admissible(frame.from_matrix(Eigen::Matrix3d::Identity()), free_entries(frame.lobe));
+}
+
+Eigen::Matrix3d random_start(const LobeFrame& frame, const TargetSamples& target,
+                             std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  const auto uniform = [&] { return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53; };
+  const auto normal = [&] {  // Box and Muller; the library's differs between implementations
+    return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
+  };
+  Eigen::Matrix3d p = moment_start(frame, target);
+  const Eigen::RowVector3d typical = p.colwise().norm() / std::sqrt(3.0);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      p(row, column) += 0.4 * normal() * typical[column];
+  return admissible(p, free_entries(frame.lobe));
+}
+
+}  // namespace ltc

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "fit/symmetry_plan.h"
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace ltc {
+
+std::vector<PlannedEntry> plan_by_symmetry(const Grid& grid) {
+  constexpr double upright = 1e-9;  // radians
+  using Key = std::tuple<double, double, double, double>;
+  std::map<Key, std::size_t> first_of_kind;
+  std::vector<PlannedEntry> plan(grid.size());
+  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    const GgxLobe lobe = grid.lobe(grid.node(flat));
+    const bool isotropic = lobe.alpha_x == lobe.alpha_y;
+    const bool any_azimuth = isotropic || lobe.theta_radians < upright;
+    const Key key{lobe.alpha_x, lobe.alpha_y, lobe.theta_radians,
+                  any_azimuth ? 0.0 : lobe.phi_radians};
+    const std::size_t representative = first_of_kind.try_emplace(key, flat).first->second;
+    plan[flat].representative = representative;
+    if (isotropic)
+      plan[flat].turn_radians = lobe.phi_radians - grid.lobe(grid.node(representative)).phi_radians;
+  }
+  return plan;
+}
+
+Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double radians) {
+  if (radians == 0)
+    return matrix;
+  const double c = std::cos(radians), s = std::sin(radians);
+  Eigen::Matrix3d rotation;
+  rotation << c, -s, 0, s, c, 0, 0, 0, 1;
+  return rotation * matrix * rotation.transpose();
+}
+
+}  // namespace ltc

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The buffers that fits reuse (see solver.h).
+#pragma once
+
+#include "core/aligned.h"
+#include "fit/quantile_model.h"
+#include "fit/solver.h"
+
+namespace ltc {
+
+struct FitWorkspace {
+  TargetSamples target;
+  TargetQuantiles coarse_quantiles, fine_quantiles;
+  ModelWorkspace model;
+  // Of the stochastic descent.
+  AlignedFloats cosine_x, cosine_y, cosine_z, sorted_target, sorted_projections;
+  AlignedVector<std::uint64_t> keys;
+};
+
+}  // namespace ltc
