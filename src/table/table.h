@@ -21,6 +21,11 @@ enum class Status : std::uint8_t {
   failed = 4,    // the solver found no finite matrix; its values are NaN
 };
 
+// Whether entries of this status have values; those of the others are NaN.
+inline bool has_values(Status status) {
+  return status != Status::skipped && status != Status::failed;
+}
+
 struct Table {
   Grid grid;
   Storage storage = Storage::matrix;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "export/consistency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace ltc {
+namespace {
+
+constexpr std::size_t bytes_per_entry = (9 + 3) * sizeof(float) + sizeof(Status) + 2;
+static_assert(max_nodes_per_axis * max_nodes_per_axis * max_nodes_per_axis * max_nodes_per_axis *
+                      bytes_per_entry <
+                  std::size_t{2} << 30,
+              "the bound on the nodes of an axis keeps every table below 2 GiB");
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw InputError(fmt::format("{}: {}", file.string(), what));
+}
+
+// What is wrong with an axis whose values may lie in [least, most]; empty if nothing is.
+std::string fault(const Axis& axis, double least, double most) {
+  const std::vector<double>& nodes = axis.nodes;
+  if (nodes.empty() || nodes.size() > max_nodes_per_axis)
+    return fmt::format("{} nodes; allowed: 1 to {}", nodes.size(), max_nodes_per_axis);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!(nodes[i] >= least && nodes[i] <= most))
+      return fmt::format("node {} is {}; allowed: {} to {}", i, nodes[i], least, most);
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    if (!(nodes[i - 1] < nodes[i]))
+      return fmt::format("node {} is {} after {}; nodes must strictly increase", i, nodes[i],
+                         nodes[i - 1]);
+  // A look-up goes by the first and last node and the warp alone: a node elsewhere would be read in
+  // the wrong place. Far above rounding, far below any distance between nodes that matters.
+  const double tolerance = 1e-6 * (axis.last() - axis.first());
+  for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+    const double expected =
+        axis.value(static_cast<double>(i) / static_cast<double>(nodes.size() - 1));
+    if (std::abs(nodes[i] - expected) > tolerance)
+      return fmt::format("node {} is {}; warp {} puts it at {}", i, nodes[i], warp_name(axis.warp),
+                         expected);
+  }
+  return {};
+}
+
+void require_sizes(const Table& table, const std::filesystem::path& file) {
+  const std::size_t entries = table.grid.size();
+  const auto require = [&](std::string_view name, std::size_t size, std::size_t expected) {
+    if (size != expected)
+      refuse(file, fmt::format("{} has {} values; the axes ask for {}", name, size, expected));
+  };
+  require("matrix", table.stored.size(), 9 * entries);
+  require("amplitude", table.amplitude.size(), entries);
+  require("fresnel", table.fresnel.size(), entries);
+  require("sw_loss", table.sw_loss.size(), entries);
+  require("status", table.status.size(), entries);
+  require("iterations", table.iterations.size(), entries);
+}
+
+}  // namespace
+
+std::array<const Axis*, 4> axes_of(const Grid& grid) {
+  return {&grid.alpha, &grid.lambda, &grid.theta, &grid.phi};
+}
+
+std::array<Axis*, 4> axes_of(Grid& grid) {
+  return {&grid.alpha, &grid.lambda, &grid.theta, &grid.phi};
+}
+
+void require_consistent(const Grid& grid, const std::filesystem::path& file) {
+  constexpr double quarter_turn = std::numbers::pi / 2 * (1 + 1e-12);
+  constexpr double largest_float = 3.4e38;
+  const std::array<double, 4> most = {largest_float, 1, quarter_turn, quarter_turn};
+  for (std::size_t i = 0; i < axis_names.size(); ++i)
+    if (const std::string what = fault(*axes_of(grid)[i], 0, most[i]); !what.empty())
+      refuse(file, fmt::format("axis {}: {}", axis_names[i], what));
+  if (!(grid.alpha_min > 0 && std::isfinite(grid.alpha_min)))
+    refuse(file, fmt::format("alpha_min is {}; it must be positive", grid.alpha_min));
+}
+
+void require_consistent(const Table& table, const std::filesystem::path& file) {
+  require_consistent(table.grid, file);
+  require_sizes(table, file);
+  for (std::size_t i = 0; i < table.grid.size(); ++i) {
+    const auto first = table.stored.begin() + static_cast<std::ptrdiff_t>(9 * i);
+    if (has_values(table.status[i]) &&
+        !std::all_of(first, first + 9, [](float value) { return std::isfinite(value); })) {
+      const NodeIndex node = table.grid.node(i);
+      refuse(file, fmt::format("matrix of entry ({}, {}, {}, {}) is not finite, yet its status is "
+                               "{}; only a skipped (0) or failed (4) entry has none",
+                               node.alpha, node.lambda, node.theta, node.phi,
+                               static_cast<int>(table.status[i])));
+    }
+  }
+}
+
+}  // namespace ltc

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What holds for every table in a file, whatever the format: checked after reading and before
+// writing, so that no file and no look-up ever sees another.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+
+#include "table/table.h"
+
+namespace ltc {
+
+// Larger tables are refused before memory is taken for them.
+inline constexpr std::size_t max_nodes_per_axis = 64;
+
+// In the order of the files.
+inline constexpr std::array<std::string_view, 4> axis_names = {"alpha", "lambda", "theta", "phi"};
+std::array<const Axis*, 4> axes_of(const Grid& grid);
+std::array<Axis*, 4> axes_of(Grid& grid);
+
+// Throws InputError naming `file` and the axis if the grid has an axis of no or too many nodes,
+// with nodes that are not finite, not strictly increasing, out of range (alpha >= 0, lambda in [0,
+// 1], theta and phi in [0, pi/2]) or not where the warp puts them, or if alpha_min is not positive.
+void require_consistent(const Grid& grid, const std::filesystem::path& file);
+
+// The same, and that every array has the grid's size and the matrix of every entry that is neither
+// skipped nor failed is finite.
+void require_consistent(const Table& table, const std::filesystem::path& file);
+
+}  // namespace ltc

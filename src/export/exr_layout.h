@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// How a table's values lie in the three images: shared by exr_write.cpp and exr_read.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "table/grid.h"
+
+namespace ltc::exr_layout {
+
+inline constexpr int version = 1;  // of ltc:format_version
+inline constexpr int files = 3;
+inline constexpr std::size_t channels_per_file = 4;
+inline constexpr std::array<const char*, channels_per_file> channel_names = {"R", "G", "B", "A"};
+
+// What R, G, B and A of each file hold, as in the attribute ltc:channels.
+inline constexpr std::array<std::string_view, files> channel_contents = {
+    "m00,m01,m02,m10", "m11,m12,m20,m21", "m22,amplitude,fresnel,0"};
+
+// The values of an entry in the order of the channels of all files: nine of the matrix by rows,
+// then these, then a zero.
+inline constexpr std::size_t amplitude_channel = 9;
+inline constexpr std::size_t fresnel_channel = 10;
+inline constexpr std::size_t values_per_entry = 11;
+
+struct Size {
+  std::size_t width, height;
+};
+inline Size atlas_size(const Grid& grid) {
+  return {grid.phi.size() * grid.lambda.size(), grid.theta.size() * grid.alpha.size()};
+}
+
+// Index of an entry's pixel, row by row.
+inline std::size_t pixel(const Grid& grid, std::size_t flat) {
+  const NodeIndex node = grid.node(flat);
+  const std::size_t x = node.phi + grid.phi.size() * node.lambda;
+  const std::size_t y = node.theta + grid.theta.size() * node.alpha;
+  return y * atlas_size(grid).width + x;
+}
+
+}  // namespace ltc::exr_layout

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
+#include <ImfStringAttribute.h>
+#include <ImfTestFile.h>
+#include <ImfVersion.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "export/consistency.h"
+#include "export/exr.h"
+#include "export/exr_layout.h"
+#include "export/file.h"
+
+namespace ltc {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace exr_layout;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& what) {
+  throw InputError(fmt::format("{}: {}", path.string(), on_one_line(what)));
+}
+
+// While one of these lives, no header can make the library take memory for an image larger than the
+// largest table's atlas.
+class BoundedImageSize {
+ public:
+  BoundedImageSize() {
+    constexpr int largest = static_cast<int>(max_nodes_per_axis * max_nodes_per_axis);
+    Imf::Header::setMaxImageSize(largest, largest);
+  }
+  ~BoundedImageSize() { Imf::Header::setMaxImageSize(0, 0); }  // no bound, the library's default
+  BoundedImageSize(const BoundedImageSize&) = delete;
+  BoundedImageSize& operator=(const BoundedImageSize&) = delete;
+};
+
+// The value of an attribute of type Attribute.
+template <class Attribute>
+auto attribute(const Imf::Header& header, const char* name, const fs::path& path) {
+  const Attribute* const found = header.findTypedAttribute<Attribute>(name);
+  if (!found)
+    refuse(path, fmt::format("header attribute {} is missing or not of type {}", name,
+                             Attribute::staticTypeName()));
+  return found->value();
+}
+
+nlohmann::json json_attribute(const Imf::Header& header, const char* name, const fs::path& path) {
+  return nlohmann::json::parse(attribute<Imf::StringAttribute>(header, name, path));
+}
+
+Grid read_grid(const Imf::Header& header, const fs::path& path) {
+  Grid grid;
+  try {
+    const nlohmann::json axes = json_attribute(header, "ltc:axes", path);
+    const nlohmann::json warps = json_attribute(header, "ltc:warp", path);
+    for (std::size_t i = 0; i < axis_names.size(); ++i) {
+      const std::string name(axis_names[i]);
+      *axes_of(grid)[i] = {axes.at(name).get<std::vector<double>>(),
+                           warp_from_name(warps.at(name).get<std::string>())};
+    }
+  } catch (const nlohmann::json::exception& error) {
+    refuse(path, fmt::format("header attribute ltc:axes or ltc:warp: {}", error.what()));
+  }
+  grid.alpha_min = attribute<Imf::DoubleAttribute>(header, "ltc:alpha_min", path);
+  require_consistent(grid, path);
+  return grid;
+}
+
+void require_layout(const Imf::InputFile& file, const fs::path& path) {
+  if (!Imf::isTiled(file.version()) && !Imf::isMultiPart(file.version()) &&
+      !Imf::isNonImage(file.version()))
+    return;
+  refuse(path, "not a single-part scan-line image");
+}
+
+void require_channels(const Imf::Header& header, int index, const fs::path& path) {
+  const auto expected = channel_contents[static_cast<std::size_t>(index)];
+  const auto found = attribute<Imf::StringAttribute>(header, "ltc:channels", path);
+  if (found != expected)
+    refuse(path, fmt::format("ltc:channels is \"{}\"; expected: \"{}\"", found, expected));
+  std::size_t count = 0;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+    ++count;
+  for (const char* name : channel_names) {
+    const Imf::Channel* const channel = header.channels().findChannel(name);
+    if (count != channels_per_file || !channel || channel->type == Imf::UINT ||
+        channel->xSampling != 1 || channel->ySampling != 1)
+      refuse(path, "channels must be R, G, B and A, float or half, at full resolution");
+  }
+}
+
+void require_size(const Imf::Header& header, const Grid& grid, const fs::path& path) {
+  const Size size = atlas_size(grid);
+  const auto& window = header.dataWindow();
+  if (window.min.x != 0 || window.min.y != 0 || window.max.x + 1 != static_cast<int>(size.width) ||
+      window.max.y + 1 != static_cast<int>(size.height))
+    refuse(path, fmt::format("data window is ({}, {}) to ({}, {}); the axes ask for {} x {} pixels",
+                             window.min.x, window.min.y, window.max.x, window.max.y, size.width,
+                             size.height));
+}
+
+// What the header says of the table, empty of values. Checks all of it against the layout.
+Table read_header(const Imf::InputFile& file, int index, const fs::path& path) {
+  const Imf::Header& header = file.header();
+  require_layout(file, path);
+  if (const int found = attribute<Imf::IntAttribute>(header, "ltc:format_version", path);
+      found != version)
+    refuse(path, fmt::format("ltc:format_version is {}; allowed: {}", found, version));
+  require_channels(header, index, path);
+  const Grid grid = read_grid(header, path);
+  require_size(header, grid, path);
+  const auto storage = attribute<Imf::StringAttribute>(header, "ltc:storage", path);
+  return Table::empty(grid, storage_from_name(storage));
+}
+
+std::vector<float> read_pixels(Imf::InputFile& file, const Grid& grid) {
+  const Size size = atlas_size(grid);
+  constexpr std::size_t pixel_bytes = channels_per_file * sizeof(float);
+  std::vector<float> pixels(channels_per_file * size.width * size.height);
+  Imf::FrameBuffer buffer;
+  for (std::size_t channel = 0; channel < channels_per_file; ++channel)
+    buffer.insert(channel_names[channel],
+                  Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data() + channel),
+                             pixel_bytes, pixel_bytes * size.width));
+  file.setFrameBuffer(buffer);
+  file.readPixels(0, static_cast<int>(size.height) - 1);
+  return pixels;
+}
+
+void take_value(Table& table, std::size_t entry, std::size_t channel, float value) {
+  if (channel < amplitude_channel)
+    table.stored[9 * entry + channel] = value;
+  else if (channel == amplitude_channel)
+    table.amplitude[entry] = value;
+  else if (channel == fresnel_channel)
+    table.fresnel[entry] = value;
+}
+
+void take_pixels(Table& table, int index, const std::vector<float>& pixels, const fs::path& path) {
+  for (std::size_t entry = 0; entry < table.grid.size(); ++entry) {
+    const float* const first = &pixels[channels_per_file * pixel(table.grid, entry)];
+    for (std::size_t channel = 0; channel < channels_per_file; ++channel) {
+      if (!std::isfinite(first[channel]))
+        refuse(path, fmt::format("channel {} is not finite at pixel {}", channel_names[channel],
+                                 pixel(table.grid, entry)));
+      take_value(table, entry, channels_per_file * static_cast<std::size_t>(index) + channel,
+                 first[channel]);
+    }
+  }
+}
+
+// Reads file `index` into the table; the first one makes it.
+void read_file_into(Table& table, int index, const fs::path& path) {
+  require_readable(path);
+  const BoundedImageSize bound;
+  try {
+    constexpr int no_threads = 0;
+    Imf::InputFile file(path.c_str(), no_threads);
+    Table found = read_header(file, index, path);
+    if (index == 0)
+      table = std::move(found);
+    else if (found.grid != table.grid || found.storage != table.storage)
+      refuse(path, "axes, warp, storage or alpha_min differ from those of file 0");
+    take_pixels(table, index, read_pixels(file, table.grid), path);
+  } catch (const InputError& error) {
+    // Names of warps and storages are refused by those who know them, not the file.
+    const std::string what = error.what();
+    if (what.starts_with(path.string()))
+      throw;
+    refuse(path, what);
+  } catch (const std::exception& error) {
+    refuse(path, fmt::format("no OpenEXR file, or a damaged one ({})", error.what()));
+  }
+}
+
+}  // namespace
+
+Table read_exr(const fs::path& prefix) {
+  Table table;
+  for (int index = 0; index < files; ++index)
+    read_file_into(table, index, exr_path(prefix, index));
+  table.brdf.clear();
+  table.status.assign(table.grid.size(), Status::fitted);
+  return table;
+}
+
+}  // namespace ltc

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include <Iex.h>
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIntAttribute.h>
+#include <ImfOutputFile.h>
+#include <ImfStdIO.h>
+#include <ImfStringAttribute.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "export/consistency.h"
+#include "export/exr.h"
+#include "export/exr_layout.h"
+#include "export/file.h"
+#include "export/nearest.h"
+
+namespace ltc {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace exr_layout;
+
+// Pixels of one file, R, G, B, A interleaved.
+using Pixels = std::vector<float>;
+
+float value_of(const Table& table, std::size_t entry, std::size_t channel) {
+  if (channel < amplitude_channel)
+    return table.stored[9 * entry + channel];
+  if (channel == amplitude_channel)
+    return table.amplitude[entry];
+  return channel == fresnel_channel ? table.fresnel[entry] : 0.0f;
+}
+
+void require_storable(const Table& table, std::size_t entry, float value, float largest,
+                      const fs::path& file) {
+  if (std::abs(value) <= largest)
+    return;
+  const NodeIndex node = table.grid.node(entry);
+  throw InputError(fmt::format(
+      "{}: entry ({}, {}, {}, {}) holds {}; a texture of this depth holds finite values up to {}",
+      file.string(), node.alpha, node.lambda, node.theta, node.phi, value, largest));
+}
+
+std::array<Pixels, files> gather_pixels(const Table& table, const fs::path& prefix, bool half) {
+  const std::vector<std::size_t> source = nearest_fitted(table);
+  const float largest = half ? 65504.0f : std::numeric_limits<float>::max();
+  std::array<Pixels, files> pixels;
+  for (std::size_t file = 0; file < pixels.size(); ++file) {
+    pixels[file].resize(channels_per_file * table.grid.size());
+    for (std::size_t entry = 0; entry < source.size(); ++entry) {
+      float* const first = &pixels[file][channels_per_file * pixel(table.grid, entry)];
+      for (std::size_t channel = 0; channel < channels_per_file; ++channel) {
+        first[channel] = value_of(table, source[entry], channels_per_file * file + channel);
+        require_storable(table, source[entry], first[channel], largest,
+                         exr_path(prefix, static_cast<int>(file)));
+      }
+    }
+  }
+  return pixels;
+}
+
+Imf::Header make_header(const Table& table, std::size_t file, Imf::PixelType type) {
+  nlohmann::ordered_json axes, warps;
+  for (std::size_t i = 0; i < axis_names.size(); ++i) {
+    const Axis& axis = *axes_of(table.grid)[i];
+    axes[std::string(axis_names[i])] = axis.nodes;
+    warps[std::string(axis_names[i])] = warp_name(axis.warp);
+  }
+  const Size size = atlas_size(table.grid);
+  Imf::Header header(static_cast<int>(size.width), static_cast<int>(size.height));
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const char* channel : channel_names)
+    header.channels().insert(channel, Imf::Channel(type));
+  header.insert("ltc:format_version", Imf::IntAttribute(version));
+  header.insert("ltc:axes", Imf::StringAttribute(axes.dump()));
+  header.insert("ltc:warp", Imf::StringAttribute(warps.dump()));
+  header.insert("ltc:storage", Imf::StringAttribute(std::string(storage_name(table.storage))));
+  header.insert("ltc:alpha_min", Imf::DoubleAttribute(table.grid.alpha_min));
+  header.insert("ltc:channels", Imf::StringAttribute(std::string(channel_contents[file])));
+  return header;
+}
+
+// The file's bytes. Into memory first: the library does not report what fails when it closes a
+// file.
+template <class T>
+std::string encode(const Imf::Header& header, const std::vector<T>& pixels, Imf::PixelType type) {
+  const std::size_t width = static_cast<std::size_t>(header.dataWindow().max.x) + 1;
+  const std::size_t height = static_cast<std::size_t>(header.dataWindow().max.y) + 1;
+  constexpr std::size_t pixel_bytes = channels_per_file * sizeof(T);
+  Imf::FrameBuffer buffer;
+  for (std::size_t channel = 0; channel < channels_per_file; ++channel) {
+    // The library's slices point to non-const bytes for reading's sake; writing leaves them alone.
+    char* const base = const_cast<char*>(reinterpret_cast<const char*>(pixels.data() + channel));
+    buffer.insert(channel_names[channel], Imf::Slice(type, base, pixel_bytes, pixel_bytes * width));
+  }
+  Imf::StdOSStream stream;
+  {
+    constexpr int no_threads = 0;
+    Imf::OutputFile file(stream, header, no_threads);
+    file.setFrameBuffer(buffer);
+    file.writePixels(static_cast<int>(height));
+  }  // the destructor writes the table of line offsets
+  return stream.str();
+}
+
+std::string encode_file(const Table& table, std::size_t file, const Pixels& pixels, bool half) {
+  if (!half)
+    return encode(make_header(table, file, Imf::FLOAT), pixels, Imf::FLOAT);
+  const std::vector<::half> rounded(pixels.begin(), pixels.end());
+  return encode(make_header(table, file, Imf::HALF), rounded, Imf::HALF);
+}
+
+}  // namespace
+
+fs::path exr_path(const fs::path& prefix, int index) {
+  return fs::path(fmt::format("{}.{}.exr", prefix.string(), index));
+}
+
+void write_exr(const Table& table, const fs::path& prefix, bool half) {
+  require_consistent(table, exr_path(prefix, 0));
+  const std::array<Pixels, files> pixels = gather_pixels(table, prefix, half);
+  std::array<std::string, files> encoded;
+  try {
+    for (std::size_t file = 0; file < encoded.size(); ++file)
+      encoded[file] = encode_file(table, file, pixels[file], half);
+  } catch (const Iex::BaseExc& error) {
+    throw IoError(fmt::format("cannot write {}: {}", exr_path(prefix, 0).string(),
+                              on_one_line(error.what())));
+  }
+  for (std::size_t file = 0; file < encoded.size(); ++file)
+    write_file(exr_path(prefix, static_cast<int>(file)), encoded[file]);
+}
+
+}  // namespace ltc

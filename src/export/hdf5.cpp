@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "export/hdf5.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/platform.h"
+#include "export/consistency.h"
+#include "export/hdf5_file.h"
+
+namespace ltc {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string root = "/";
+
+std::string axis_dataset(std::string_view axis) {
+  return fmt::format("axis/{}", axis);
+}
+
+void write_attributes(Hdf5Output& file, const Table& table) {
+  file.text(root, "format", table_format);
+  file.number(root, "format_version", std::int32_t{table_format_version});
+  file.text(root, "brdf", table.brdf);
+  file.text(root, "storage", std::string(storage_name(table.storage)));
+  file.number(root, "alpha_min", table.grid.alpha_min);
+  file.number(root, "seed", table.seed);
+  file.text(root, "generator", table.generator);
+  file.text(root, "config", table.config);
+  file.text(root, "created", table.created);
+}
+
+void write_axes(Hdf5Output& file, const Grid& grid) {
+  file.group("axis");
+  for (std::size_t i = 0; i < axis_names.size(); ++i) {
+    const Axis& axis = *axes_of(grid)[i];
+    const std::string name = axis_dataset(axis_names[i]);
+    file.values<double>(name, {axis.size()}, axis.nodes);
+    file.text(name, "warp", std::string(warp_name(axis.warp)));
+  }
+}
+
+std::vector<std::size_t> entry_shape(const Grid& grid) {
+  const auto shape = grid.shape();
+  return {shape.begin(), shape.end()};
+}
+
+std::vector<std::size_t> matrix_shape(const Grid& grid) {
+  std::vector<std::size_t> shape = entry_shape(grid);
+  shape.insert(shape.end(), {3, 3});
+  return shape;
+}
+
+void write_entries(Hdf5Output& file, const Table& table) {
+  const std::vector<std::size_t> shape = entry_shape(table.grid);
+  file.values<float>("matrix", matrix_shape(table.grid), table.stored);
+  file.values<float>("amplitude", shape, table.amplitude);
+  file.values<float>("fresnel", shape, table.fresnel);
+  file.values<float>("sw_loss", shape, table.sw_loss);
+  static_assert(sizeof(Status) == 1);
+  const std::span<const Status> status(table.status);
+  file.values<std::uint8_t>("status", shape,
+                            {reinterpret_cast<const std::uint8_t*>(status.data()), status.size()});
+  file.values<std::uint16_t>("iterations", shape, table.iterations);
+}
+
+void require_format(const Hdf5Input& file, const fs::path& path) {
+  if (const std::string format = file.text(root, "format"); format != table_format)
+    throw InputError(fmt::format("{}: attribute format is \"{}\"; allowed: \"{}\"", path.string(),
+                                 format, table_format));
+  if (const std::int64_t version = file.integer(root, "format_version");
+      version != table_format_version)
+    throw InputError(fmt::format("{}: attribute format_version is {}; allowed: {}", path.string(),
+                                 version, table_format_version));
+}
+
+// Names the file when a name in it is not known.
+template <class FromName>
+auto named(const Hdf5Input& file, const fs::path& path, const std::string& object,
+           const std::string& attribute, FromName from_name) {
+  const std::string name = file.text(object, attribute);
+  try {
+    return from_name(name);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}: attribute {} of {}: {}", path.string(), attribute, object, error.what()));
+  }
+}
+
+Axis read_axis(const Hdf5Input& file, const fs::path& path, const std::string& name) {
+  const std::vector<std::size_t> shape = file.shape(name);
+  if (shape.size() != 1 || shape[0] < 1 || shape[0] > max_nodes_per_axis)
+    throw InputError(fmt::format("{}: dataset {} must be a list of 1 to {} nodes", path.string(),
+                                 name, max_nodes_per_axis));
+  Axis axis;
+  axis.nodes = file.values<double>(name, shape);
+  axis.warp = named(file, path, name, "warp", warp_from_name);
+  return axis;
+}
+
+Grid read_grid(const Hdf5Input& file, const fs::path& path) {
+  Grid grid;
+  for (std::size_t i = 0; i < axis_names.size(); ++i)
+    *axes_of(grid)[i] = read_axis(file, path, axis_dataset(axis_names[i]));
+  grid.alpha_min = file.real(root, "alpha_min");
+  require_consistent(grid, path);
+  return grid;
+}
+
+void read_attributes(const Hdf5Input& file, const fs::path& path, Table& table) {
+  table.storage = named(file, path, root, "storage", storage_from_name);
+  table.brdf = file.text(root, "brdf");
+  table.seed = file.natural(root, "seed");
+  table.generator = file.text(root, "generator");
+  table.config = file.text(root, "config");
+  table.created = file.text(root, "created");
+}
+
+std::vector<Status> read_status(const Hdf5Input& file, const fs::path& path,
+                                const std::vector<std::size_t>& shape) {
+  const std::vector<std::uint8_t> raw = file.values<std::uint8_t>("status", shape);
+  std::vector<Status> status(raw.size());
+  std::transform(raw.begin(), raw.end(), status.begin(), [&path](std::uint8_t value) {
+    if (value > static_cast<std::uint8_t>(Status::failed))
+      throw InputError(
+          fmt::format("{}: dataset status holds {}; allowed: 0 to 4", path.string(), value));
+    return static_cast<Status>(value);
+  });
+  return status;
+}
+
+void read_entries(const Hdf5Input& file, const fs::path& path, Table& table) {
+  const std::vector<std::size_t> shape = entry_shape(table.grid);
+  table.stored = file.values<float>("matrix", matrix_shape(table.grid));
+  table.amplitude = file.values<float>("amplitude", shape);
+  table.fresnel = file.values<float>("fresnel", shape);
+  table.sw_loss = file.values<float>("sw_loss", shape);
+  table.status = read_status(file, path, shape);
+  table.iterations = file.values<std::uint16_t>("iterations", shape);
+}
+
+}  // namespace
+
+void write_hdf5(const Table& table, const fs::path& path) {
+  require_consistent(table, path);
+  platform::write_atomically(path, [&](const fs::path& temporary) {
+    Hdf5Output file(temporary, path.string());
+    write_attributes(file, table);
+    write_axes(file, table.grid);
+    write_entries(file, table);
+    file.finish();
+  });
+}
+
+Table read_hdf5(const fs::path& path) {
+  const Hdf5Input file(path);
+  require_format(file, path);
+  Table table;
+  table.grid = read_grid(file, path);
+  read_attributes(file, path, table);
+  read_entries(file, path, table);
+  require_consistent(table, path);
+  return table;
+}
+
+}  // namespace ltc

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "export/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <type_traits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+#include "export/file.h"
+
+namespace ltc {
+namespace {
+
+static_assert(std::is_same_v<hid_t, Hdf5Handle::Id>);
+static_assert(std::is_same_v<herr_t, int>);
+
+// A configuration may be long; nothing else is.
+constexpr std::size_t max_text_bytes = std::size_t{16} << 20;
+
+// How a C++ type is called in memory, in files (little-endian) and in messages.
+template <class T>
+struct TypeOf;
+template <>
+struct TypeOf<float> {
+  static hid_t memory() { return H5T_NATIVE_FLOAT; }
+  static hid_t file() { return H5T_IEEE_F32LE; }
+  static constexpr const char* name = "f32";
+};
+template <>
+struct TypeOf<double> {
+  static hid_t memory() { return H5T_NATIVE_DOUBLE; }
+  static hid_t file() { return H5T_IEEE_F64LE; }
+  static constexpr const char* name = "f64";
+};
+template <>
+struct TypeOf<std::uint8_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT8; }
+  static hid_t file() { return H5T_STD_U8LE; }
+  static constexpr const char* name = "u8";
+};
+template <>
+struct TypeOf<std::uint16_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT16; }
+  static hid_t file() { return H5T_STD_U16LE; }
+  static constexpr const char* name = "u16";
+};
+template <>
+struct TypeOf<std::uint64_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT64; }
+  static hid_t file() { return H5T_STD_U64LE; }
+  static constexpr const char* name = "u64";
+};
+template <>
+struct TypeOf<std::int32_t> {
+  static hid_t memory() { return H5T_NATIVE_INT32; }
+  static hid_t file() { return H5T_STD_I32LE; }
+  static constexpr const char* name = "i32";
+};
+template <>
+struct TypeOf<std::int64_t> {
+  static hid_t memory() { return H5T_NATIVE_INT64; }
+  static hid_t file() { return H5T_STD_I64LE; }
+  static constexpr const char* name = "integer";
+};
+
+// Whether a file's type holds T's values, and with any_size other widths of the same kind too. Byte
+// order is the library's business.
+template <class T>
+bool holds(hid_t type, bool any_size) {
+  const H5T_class_t kind = H5Tget_class(type);
+  if constexpr (std::is_floating_point_v<T>)
+    return kind == H5T_FLOAT && H5Tget_size(type) == sizeof(T);
+  if (kind != H5T_INTEGER)
+    return false;
+  if (any_size)
+    return H5Tget_size(type) <= sizeof(T);
+  return H5Tget_size(type) == sizeof(T) &&
+         H5Tget_sign(type) == (std::is_signed_v<T> ? H5T_SGN_2 : H5T_SGN_NONE);
+}
+
+std::size_t product(const std::vector<std::size_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+Hdf5Handle dataspace_of(const std::vector<std::size_t>& shape) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  return {H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose};
+}
+
+std::string text_of_variable_length(hid_t attribute, hid_t type, bool& ok) {
+  char* raw = nullptr;
+  ok = H5Aread(attribute, type, static_cast<void*>(&raw)) >= 0;
+  const std::unique_ptr<char, herr_t (*)(void*)> owned(raw, H5free_memory);
+  return ok && raw ? std::string(raw) : std::string();
+}
+
+std::string text_of_fixed_length(hid_t attribute, hid_t type, bool& ok) {
+  const std::size_t size = H5Tget_size(type);
+  ok = size > 0 && size <= max_text_bytes;
+  std::string text(ok ? size : 0, '\0');
+  ok = ok && H5Aread(attribute, type, text.data()) >= 0;
+  text.resize(std::min(text.size(), text.find('\0')));
+  if (H5Tget_strpad(type) == H5T_STR_SPACEPAD)
+    text.resize(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+}  // namespace
+
+Hdf5Silence::Hdf5Silence() {
+  H5E_auto2_t function = nullptr;
+  H5Eget_auto2(H5E_DEFAULT, &function, &data_);
+  function_ = reinterpret_cast<void*>(function);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Hdf5Silence::~Hdf5Silence() {
+  H5Eset_auto2(H5E_DEFAULT, reinterpret_cast<H5E_auto2_t>(function_), data_);
+}
+
+Hdf5Input::Hdf5Input(const std::filesystem::path& path) : name_(path.string()) {
+  require_readable(path);
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  // Tables are renamed into place whole, so a reader needs no lock, and some file systems have
+  // none.
+  H5Pset_file_locking(access.id(), false, true);
+  file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
+  if (!file_.valid())
+    refuse("no HDF5 file, or a damaged one");
+}
+
+void Hdf5Input::refuse(const std::string& what) const {
+  throw InputError(fmt::format("{}: {}", name_, what));
+}
+
+Hdf5Handle Hdf5Input::open_attribute(const std::string& object,
+                                     const std::string& attribute) const {
+  Hdf5Handle handle(
+      H5Aopen_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
+  if (!handle.valid())
+    refuse(fmt::format("attribute {} of {} is missing", attribute, object));
+  const Hdf5Handle space(H5Aget_space(handle.id()), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space.id()) != 1)
+    refuse(fmt::format("attribute {} of {} is not a single value", attribute, object));
+  return handle;
+}
+
+std::string Hdf5Input::text(const std::string& object, const std::string& attribute) const {
+  const Hdf5Handle handle = open_attribute(object, attribute);
+  const Hdf5Handle type(H5Aget_type(handle.id()), H5Tclose);
+  if (H5Tget_class(type.id()) != H5T_STRING)
+    refuse(fmt::format("attribute {} of {} is no string", attribute, object));
+  bool ok = false;
+  std::string text = H5Tis_variable_str(type.id()) > 0
+                         ? text_of_variable_length(handle.id(), type.id(), ok)
+                         : text_of_fixed_length(handle.id(), type.id(), ok);
+  if (!ok)
+    refuse(fmt::format("attribute {} of {} cannot be read", attribute, object));
+  return text;
+}
+
+template <class T>
+T Hdf5Input::scalar(const std::string& object, const std::string& attribute, bool any_size) const {
+  const Hdf5Handle handle = open_attribute(object, attribute);
+  const Hdf5Handle type(H5Aget_type(handle.id()), H5Tclose);
+  if (!holds<T>(type.id(), any_size))
+    refuse(fmt::format("attribute {} of {} has another type than {}", attribute, object,
+                       TypeOf<T>::name));
+  T value{};
+  if (H5Aread(handle.id(), TypeOf<T>::memory(), &value) < 0)
+    refuse(fmt::format("attribute {} of {} cannot be read", attribute, object));
+  return value;
+}
+
+double Hdf5Input::real(const std::string& object, const std::string& attribute) const {
+  return scalar<double>(object, attribute, false);
+}
+
+std::uint64_t Hdf5Input::natural(const std::string& object, const std::string& attribute) const {
+  return scalar<std::uint64_t>(object, attribute, false);
+}
+
+std::int64_t Hdf5Input::integer(const std::string& object, const std::string& attribute) const {
+  return scalar<std::int64_t>(object, attribute, true);
+}
+
+Hdf5Handle Hdf5Input::open_dataset(const std::string& dataset) const {
+  Hdf5Handle handle(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!handle.valid())
+    refuse(fmt::format("dataset {} is missing", dataset));
+  return handle;
+}
+
+std::vector<std::size_t> Hdf5Input::shape(const std::string& dataset) const {
+  const Hdf5Handle handle = open_dataset(dataset);
+  const Hdf5Handle space(H5Dget_space(handle.id()), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space.id());
+  if (H5Sget_simple_extent_type(space.id()) == H5S_NULL || rank < 0)
+    refuse(fmt::format("dataset {} has no shape", dataset));
+  std::vector<hsize_t> extent(static_cast<std::size_t>(rank));
+  if (rank > 0)
+    H5Sget_simple_extent_dims(space.id(), extent.data(), nullptr);
+  return {extent.begin(), extent.end()};
+}
+
+template <class T>
+std::vector<T> Hdf5Input::values(const std::string& dataset,
+                                 const std::vector<std::size_t>& expected) const {
+  const Hdf5Handle handle = open_dataset(dataset);
+  const Hdf5Handle type(H5Dget_type(handle.id()), H5Tclose);
+  if (!holds<T>(type.id(), false))
+    refuse(fmt::format("dataset {} has another type than {}", dataset, TypeOf<T>::name));
+  const std::vector<std::size_t> found = shape(dataset);
+  if (found != expected)
+    refuse(fmt::format("dataset {} has shape ({}); expected: ({})", dataset, fmt::join(found, ", "),
+                       fmt::join(expected, ", ")));
+  std::vector<T> values(product(found));
+  if (H5Dread(handle.id(), TypeOf<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    refuse(fmt::format("dataset {} cannot be read", dataset));
+  return values;
+}
+
+Hdf5Output::Hdf5Output(const std::filesystem::path& path, std::string shown_as)
+    : name_(std::move(shown_as)) {
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access.id(), false, true);
+  file_ = checked({H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose},
+                  "the file cannot be created");
+}
+
+void Hdf5Output::check(bool ok, const std::string& what) const {
+  if (!ok)
+    throw IoError(fmt::format("cannot write {}: {}", name_, what));
+}
+
+Hdf5Handle Hdf5Output::checked(Hdf5Handle handle, const std::string& what) const {
+  check(handle.valid(), what);
+  return handle;
+}
+
+void Hdf5Output::text(const std::string& object, const std::string& attribute,
+                      const std::string& value) {
+  check(value.find('\0') == std::string::npos, "attribute " + attribute + " holds a NUL");
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), H5T_VARIABLE);
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle handle =
+      checked({H5Acreate_by_name(file_.id(), object.c_str(), attribute.c_str(), type.id(),
+                                 space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+               H5Aclose},
+              "attribute " + attribute);
+  const char* raw = value.c_str();
+  check(H5Awrite(handle.id(), type.id(), static_cast<const void*>(&raw)) >= 0,
+        "attribute " + attribute);
+}
+
+template <class T>
+void Hdf5Output::number(const std::string& object, const std::string& attribute, T value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle handle =
+      checked({H5Acreate_by_name(file_.id(), object.c_str(), attribute.c_str(), TypeOf<T>::file(),
+                                 space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+               H5Aclose},
+              "attribute " + attribute);
+  check(H5Awrite(handle.id(), TypeOf<T>::memory(), &value) >= 0, "attribute " + attribute);
+}
+
+void Hdf5Output::group(const std::string& name) {
+  const Hdf5Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  checked({H5Gcreate2(file_.id(), name.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Gclose},
+          "group " + name);
+}
+
+template <class T>
+void Hdf5Output::values(const std::string& dataset, const std::vector<std::size_t>& shape,
+                        std::span<const T> values) {
+  check(values.size() == product(shape), "dataset " + dataset + ": values do not fill the shape");
+  const Hdf5Handle space = dataspace_of(shape);
+  const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  const Hdf5Handle handle =
+      checked({H5Dcreate2(file_.id(), dataset.c_str(), TypeOf<T>::file(), space.id(), H5P_DEFAULT,
+                          creation.id(), H5P_DEFAULT),
+               H5Dclose},
+              "dataset " + dataset);
+  check(
+      H5Dwrite(handle.id(), TypeOf<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
+      "dataset " + dataset);
+}
+
+void Hdf5Output::finish() {
+  check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0, "the last bytes were refused");
+  check(file_.close(), "the file cannot be closed");
+}
+
+template std::vector<float> Hdf5Input::values(const std::string&,
+                                              const std::vector<std::size_t>&) const;
+template std::vector<double> Hdf5Input::values(const std::string&,
+                                               const std::vector<std::size_t>&) const;
+template std::vector<std::uint8_t> Hdf5Input::values(const std::string&,
+                                                     const std::vector<std::size_t>&) const;
+template std::vector<std::uint16_t> Hdf5Input::values(const std::string&,
+                                                      const std::vector<std::size_t>&) const;
+template void Hdf5Output::number(const std::string&, const std::string&, double);
+template void Hdf5Output::number(const std::string&, const std::string&, std::int32_t);
+template void Hdf5Output::number(const std::string&, const std::string&, std::uint64_t);
+template void Hdf5Output::values(const std::string&, const std::vector<std::size_t>&,
+                                 std::span<const float>);
+template void Hdf5Output::values(const std::string&, const std::vector<std::size_t>&,
+                                 std::span<const double>);
+template void Hdf5Output::values(const std::string&, const std::vector<std::size_t>&,
+                                 std::span<const std::uint8_t>);
+template void Hdf5Output::values(const std::string&, const std::vector<std::size_t>&,
+                                 std::span<const std::uint16_t>);
+
+}  // namespace ltc

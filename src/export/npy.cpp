@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "export/npy.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+#include "export/consistency.h"
+#include "export/file.h"
+
+namespace ltc {
+namespace {
+
+namespace fs = std::filesystem;
+
+static_assert(std::endian::native == std::endian::little,
+              "values are copied as they lie in memory");
+
+constexpr std::string_view magic = "\x93NUMPY";
+constexpr std::size_t max_header_bytes = 4096;  // NumPy's own takes 128
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& what) {
+  throw InputError(fmt::format("{}: {}", path.string(), what));
+}
+
+std::string make_header(const Grid& grid) {
+  std::string dictionary =
+      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, 3, 3), }}",
+                  fmt::join(grid.shape(), ", "));
+  // Version 1.0: magic, two bytes of version, two of length; the whole a multiple of 64, the last
+  // byte a line break.
+  const std::size_t unpadded = magic.size() + 4 + dictionary.size() + 1;
+  dictionary.append((64 - unpadded % 64) % 64, ' ');
+  dictionary += '\n';
+  std::string header(magic);
+  header += {'\x01', '\x00', static_cast<char>(dictionary.size() & 0xff),
+             static_cast<char>(dictionary.size() >> 8)};
+  return header + dictionary;
+}
+
+// Exactly `count` bytes, or InputError.
+std::string take(std::ifstream& file, std::size_t count, const fs::path& path) {
+  std::string bytes(count, '\0');
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(count)))
+    refuse(path, "cut short in the header of the array");
+  return bytes;
+}
+
+// The header's dictionary, as text.
+std::string read_dictionary(std::ifstream& file, const fs::path& path) {
+  const std::string start = take(file, magic.size() + 2, path);
+  if (!start.starts_with(magic))
+    refuse(path, "no NumPy array: it does not start with \\x93NUMPY");
+  const int major = start[magic.size()];
+  if (major < 1 || major > 3)
+    refuse(path, fmt::format("NumPy format version is {}; allowed: 1 to 3", major));
+  std::size_t length = 0;
+  const std::string digits = take(file, major == 1 ? 2 : 4, path);
+  for (std::size_t i = 0; i < digits.size(); ++i)
+    length |= std::size_t{static_cast<unsigned char>(digits[i])} << (8 * i);
+  if (length > max_header_bytes)
+    refuse(path, fmt::format("header of {} bytes; allowed: {}", length, max_header_bytes));
+  return take(file, length, path);
+}
+
+// What follows 'key': in the dictionary, up to one of `ends`.
+std::string_view entry_of(std::string_view dictionary, std::string_view key, std::string_view ends,
+                          const fs::path& path) {
+  const std::string quoted = fmt::format("'{}':", key);
+  const std::size_t found = dictionary.find(quoted);
+  if (found == std::string_view::npos)
+    refuse(path, fmt::format("the array's header has no {}", key));
+  std::string_view rest = dictionary.substr(found + quoted.size());
+  rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+  const std::size_t end = rest.find_first_of(ends);
+  if (end == std::string_view::npos)
+    refuse(path, fmt::format("the array's header is malformed at {}", key));
+  return rest.substr(0, end);
+}
+
+// The numbers of "(8, 8, 3".
+std::vector<std::size_t> parse_shape(std::string_view text, const fs::path& path) {
+  std::vector<std::size_t> shape;
+  if (!text.starts_with('('))
+    refuse(path, "the shape of the array is no tuple");
+  text.remove_prefix(1);
+  while (!text.empty()) {
+    std::size_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc())
+      refuse(path, "the shape of the array is no tuple of whole numbers");
+    shape.push_back(value);
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    text.remove_prefix(std::min(text.find_first_not_of(", "), text.size()));
+  }
+  return shape;
+}
+
+Grid read_grid(std::string_view dictionary, const fs::path& path) {
+  if (const auto type = entry_of(dictionary, "descr", ",}", path); type != "'<f4'")
+    refuse(path, fmt::format("type of the array is {}; allowed: '<f4'", type));
+  if (const auto order = entry_of(dictionary, "fortran_order", ",}", path); order != "False")
+    refuse(path, fmt::format("fortran_order of the array is {}; allowed: False", order));
+  const auto shape = parse_shape(entry_of(dictionary, "shape", ")", path), path);
+  const bool nodes_allowed = std::all_of(
+      shape.begin(), shape.end(), [](std::size_t n) { return n >= 1 && n <= max_nodes_per_axis; });
+  if (shape.size() != 6 || !nodes_allowed || shape[4] != 3 || shape[5] != 3)
+    refuse(path, fmt::format("shape of the array is ({}); allowed: (Nalpha, Nlambda, Ntheta, Nphi, "
+                             "3, 3) with 1 to {} nodes each",
+                             fmt::join(shape, ", "), max_nodes_per_axis));
+  return Grid::paper({shape[0], shape[1], shape[2], shape[3]});
+}
+
+// Reads what follows the header; takes memory only once the file is known to have it.
+Table read_matrices(std::ifstream& file, std::uintmax_t file_bytes, const Grid& grid,
+                    const fs::path& path) {
+  const std::uintmax_t header_bytes = static_cast<std::uintmax_t>(file.tellg());
+  const std::uintmax_t value_bytes = 9 * grid.size() * sizeof(float);
+  if (file_bytes != header_bytes + value_bytes)
+    refuse(path, fmt::format("{} bytes long; its shape asks for {}", file_bytes,
+                             header_bytes + value_bytes));
+  Table table = Table::empty(grid, Storage::matrix);
+  if (!file.read(reinterpret_cast<char*>(table.stored.data()),
+                 static_cast<std::streamsize>(value_bytes)))
+    throw IoError(fmt::format("cannot read {}: it ended early", path.string()));
+  return table;
+}
+
+void set_status(Table& table) {
+  for (std::size_t i = 0; i < table.grid.size(); ++i)
+    table.status[i] = table.stored_at(i).array().isNaN().all() ? Status::skipped : Status::fitted;
+}
+
+}  // namespace
+
+bool npy_can_hold(const Grid& grid) {
+  return grid == Grid::paper(grid.shape());
+}
+
+void write_npy(const Table& table, const fs::path& path) {
+  require_consistent(table, path);
+  if (!npy_can_hold(table.grid))
+    throw InputError(
+        fmt::format("{}: an array without axes is read with the published ones, and "
+                    "this table's axes or alpha_min are others",
+                    path.string()));
+  Table matrices = Table::empty(table.grid, Storage::matrix);
+  for (std::size_t i = 0; i < table.grid.size(); ++i)
+    if (has_values(table.status[i]))
+      matrices.set_stored(i, table.matrix_at(i));
+  const std::string_view values(reinterpret_cast<const char*>(matrices.stored.data()),
+                                matrices.stored.size() * sizeof(float));
+  write_file(path, make_header(table.grid).append(values));
+}
+
+Table read_npy(const fs::path& path) {
+  const std::uintmax_t file_bytes = require_readable(path);
+  std::ifstream file(path, std::ios::binary);
+  const Grid grid = read_grid(read_dictionary(file, path), path);
+  Table table = read_matrices(file, file_bytes, grid, path);
+  set_status(table);
+  require_consistent(table, path);
+  return table;
+}
+
+}  // namespace ltc

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// Tables from a file of any format that the program writes.
+#pragma once
+
+#include <filesystem>
+
+#include "table/table.h"
+
+namespace ltc {
+
+// By suffix: .h5, .npy, or one of the three textures <name>.0.exr to <name>.2.exr, which brings in
+// the other two. Throws InputError for another suffix, and as the format's own reader.
+Table read_table(const std::filesystem::path& path);
+
+}  // namespace ltc

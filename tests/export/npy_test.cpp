@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// NPY: read back by NumPy, by our reader, the published table, and everything that must be refused.
+#include "export/npy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "export/exr.h"
+#include "export/files.h"
+#include "export/hdf5.h"
+#include "export/reader.h"
+#include "export/same_tables.h"
+#include "table/synthetic.h"
+
+namespace ltc {
+namespace {
+
+using testing::bytes_of;
+using testing::Finished;
+using testing::TemporaryFolder;
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+// The paper's ranges with node counts that cannot be mistaken for one another; one entry skipped.
+Table example(Storage storage) {
+  Table table = testing::synthetic_table(Grid::paper({3, 2, 5, 4}), storage);
+  table.set_stored(17, Eigen::Matrix3d::Constant(nan));
+  table.status[17] = Status::skipped;
+  return table;
+}
+
+std::string refusal(const std::filesystem::path& path) {
+  try {
+    read_npy(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+nlohmann::json expectation(const Table& table) {
+  nlohmann::json expected;
+  expected["shape"] = {3, 2, 5, 4, 3, 3};
+  for (std::size_t i = 0; i < table.grid.size(); ++i)
+    for (int k = 0; k < 9; ++k) {
+      const auto value = static_cast<float>(table.matrix_at(i)(k / 3, k % 3));
+      expected["values"].push_back(std::isnan(value) ? nlohmann::json() : nlohmann::json(value));
+    }
+  return expected;
+}
+
+TEST(Npy, NumpyFindsTheMatrixOfEveryNodeWhateverTheStorage) {
+  const TemporaryFolder folder;
+  const std::string arguments = (folder / "t.npy").string() + " " + (folder / "t.json").string();
+  for (const Storage storage : {Storage::matrix, Storage::mirror_frame}) {
+    const Table table = example(storage);
+    testing::write_bytes(folder / "t.json", expectation(table).dump());
+    write_npy(table, folder / "t.npy");
+    const Finished check = testing::run_python("check_npy.py", arguments);
+    EXPECT_EQ(check.exit_code, 0) << check.output;
+  }
+  // And the check can fail: S itself is not M.
+  Table stored = example(Storage::mirror_frame);
+  stored.storage = Storage::matrix;
+  write_npy(stored, folder / "t.npy");
+  const Finished check = testing::run_python("check_npy.py", arguments);
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_EQ(check.output, "check_npy: other values\n");
+}
+
+TEST(Npy, OurReaderGivesTheMatricesBack) {
+  const TemporaryFolder folder;
+  const Table table = example(Storage::matrix);
+  write_npy(table, folder / "t.npy");
+  const Table found = read_npy(folder / "t.npy");
+  EXPECT_EQ(found.grid, table.grid);
+  EXPECT_EQ(found.storage, Storage::matrix);
+  testing::expect_same_bits(found.stored, table.stored, "stored");
+  for (std::size_t i = 0; i < table.grid.size(); ++i) {
+    EXPECT_EQ(found.status[i], i == 17 ? Status::skipped : Status::fitted);
+    EXPECT_TRUE(std::isnan(found.amplitude[i]) && std::isnan(found.fresnel[i]));
+  }
+}
+
+TEST(Npy, TheSameTableGivesTheSameBytes) {
+  const TemporaryFolder folder;
+  write_npy(example(Storage::matrix), folder / "a.npy");
+  write_npy(example(Storage::matrix), folder / "b.npy");
+  EXPECT_EQ(bytes_of(folder / "a.npy"), bytes_of(folder / "b.npy"));
+}
+
+TEST(Npy, OtherAxesThanThePapersAreRefused) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(npy_can_hold(Grid::paper({3, 1, 5, 4})));
+  EXPECT_FALSE(npy_can_hold(testing::uneven_grid()));
+  Grid other = Grid::paper();
+  other.alpha_min = 1e-3;
+  EXPECT_FALSE(npy_can_hold(other));
+  EXPECT_THROW(write_npy(testing::synthetic_table(testing::uneven_grid(), Storage::matrix),
+                         folder / "t.npy"),
+               InputError);
+  EXPECT_THROW(write_npy(example(Storage::matrix), folder / "none/t.npy"), IoError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// A file with this dictionary and as many zero bytes of values as one entry takes.
+std::string array_of(std::string dictionary) {
+  dictionary += '\n';
+  const auto length = static_cast<char>(dictionary.size());
+  return std::string("\x93NUMPY\x01\x00", 8) + length + '\0' + dictionary + std::string(36, '\0');
+}
+
+TEST(Npy, OtherFilesAreRefusedByNameAndFault) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "t.npy";
+  write_npy(example(Storage::matrix), path);
+  const std::string whole = bytes_of(path);
+  std::string partly_nan = whole;
+  std::memcpy(partly_nan.data() + whole.size() - 4, &nan, 4);
+  const std::pair<std::string, std::string> cases[] = {
+      {"", "cut short in the header"},
+      {"PK\x03\x04 a zip file", "no NumPy array"},
+      {whole.substr(0, 9), "cut short in the header"},
+      {whole.substr(0, 60), "cut short in the header"},
+      {whole.substr(0, whole.size() - 1), "bytes long; its shape asks for"},
+      {whole + '\0', "bytes long; its shape asks for"},
+      {partly_nan, "matrix of entry (2, 1, 4, 3) is not finite"},
+      {std::string("\x93NUMPY\x09\x00", 8) + whole.substr(8), "format version is 9"},
+      {std::string("\x93NUMPY\x01\x00\xff\xff", 10) + whole.substr(10), "header of 65535 bytes"},
+      {std::string("\x93NUMPY\x02\x00\xff\xff\xff\xff", 12), "header of 4294967295 bytes"},
+      {array_of("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1, 1, 3, 3), }"),
+       "type of the array is '<f8'; allowed: '<f4'"},
+      {array_of("{'descr': '>f4', 'fortran_order': False, 'shape': (1, 1, 1, 1, 3, 3), }"),
+       "type of the array is '>f4'"},
+      {array_of("{'descr': '<f4', 'fortran_order': True, 'shape': (1, 1, 1, 1, 3, 3), }"),
+       "fortran_order of the array is True"},
+      {array_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 1, 9), }"),
+       "shape of the array is (1, 1, 1, 9)"},
+      {array_of("{'descr': '<f4', 'fortran_order': False, 'shape': (3, 3, 1, 1, 1, 1), }"),
+       "shape of the array is (3, 3, 1, 1, 1, 1)"},
+      {array_of("{'descr': '<f4', 'fortran_order': False, 'shape': (65, 1, 1, 1, 3, 3), }"),
+       "shape of the array is (65, 1, 1, 1, 3, 3)"},
+      {array_of("{'descr': '<f4', 'fortran_order': False, 'shape': (0, 1, 1, 1, 3, 3), }"),
+       "shape of the array is (0, 1, 1, 1, 3, 3)"},
+      {array_of("{'descr': '<f4', 'fortran_order': False, 'shape': (64, 64, 64, 64, 3, 3), }"),
+       "bytes long; its shape asks for"},
+      {array_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 99999999999999999999, 1)}"),
+       "no tuple of whole numbers"},
+      {array_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1, -1, 1, 1, 3, 3)}"),
+       "no tuple of whole numbers"},
+      {array_of("{'descr': '<f4', 'fortran_order': False, 'shape': 9)}"), "is no tuple"},
+      {array_of("{'descr': '<f4', 'fortran_order': False, }"), "header has no shape"},
+      {array_of("{'fortran_order': False, 'shape': (1, 1, 1, 1, 3, 3), }"), "header has no descr"},
+      {array_of("{'descr': '<f4'"), "malformed at descr"},
+  };
+  for (const auto& [bytes, fault] : cases) {
+    testing::write_bytes(path, bytes);
+    const std::string message = refusal(path);
+    EXPECT_NE(message.find(fault), std::string::npos) << fault << ": \"" << message << '"';
+    EXPECT_TRUE(message.starts_with(path.string())) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+  testing::write_bytes(
+      path, array_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 1, 1, 3, 3), }"));
+  EXPECT_EQ(refusal(path), "") << "the frame of the cases above is good";
+}
+
+std::filesystem::path published_table() {
+  const char* const folder = std::getenv("LTCFIT_REFERENCE_DIR");
+  return std::filesystem::path(folder ? folder : LTCFIT_SOURCE_DIR "/../shared/reference") /
+         "upstream_alpha_lambda_theta_phi.npy";
+}
+
+TEST(Npy, ThePublishedTableReadsAsThePapersGrid) {
+  if (!std::filesystem::exists(published_table()))
+    GTEST_SKIP() << "no reference table at " << published_table()
+                 << "; set LTCFIT_REFERENCE_DIR to the folder that has it";
+  const Table table = read_npy(published_table());
+  EXPECT_EQ(table.grid, Grid::paper());
+  // Seen from above, an isotropic lobe of roughness 1 is the same in x and y, to within the fit.
+  const Eigen::Matrix3d rough = table.matrix_at(table.grid.flat({7, 7, 0, 0}));
+  EXPECT_NEAR(rough(0, 0), rough(1, 1), 0.05);
+  EXPECT_NEAR(rough(2, 2), 1, 1e-5);  // third column of unit length, zeros elsewhere in it
+}
+
+TEST(ReadTable, GoesBySuffix) {
+  const TemporaryFolder folder;
+  Table table = testing::synthetic_table(Grid::paper(2), Storage::matrix);
+  write_hdf5(table, folder / "t.h5");
+  write_exr(table, folder / "t", false);
+  write_npy(table, folder / "t.npy");
+  for (const char* name : {"t.h5", "t.npy", "t.0.exr", "t.1.exr", "t.2.exr"})
+    testing::expect_same_bits(read_table(folder / name).stored, table.stored, name);
+  for (const char* name : {"t.exr", "t.3.exr", "t.txt", "t"})
+    EXPECT_THROW(read_table(folder / name), InputError) << name;
+  EXPECT_THROW(read_table(folder / "none.npy"), IoError);
+  EXPECT_THROW(read_table(folder / "none.0.exr"), IoError);
+  EXPECT_THROW(read_table(folder / "none.h5"), IoError);
+}
+
+}  // namespace
+}  // namespace ltc
