@@ -41,7 +41,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // and z = max(lz, 0), which makes the weight zero below the horizon without a division by zero.
 // Products and sums are written out, not fused, for the same bits on every target.
 Albedo AlbedoKernel(const AlbedoLobe& lobe, const AlbedoRule& rule) {
-  const hn::CappedTag<float, AlbedoRule::kBlock> d;
+  const hn::CappedTag<float, AlbedoRule::block_size> d;
   const std::size_t lanes = hn::Lanes(d);
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
   const auto alpha_x = hn::Set(d, lobe.alpha_x), alpha_y = hn::Set(d, lobe.alpha_y);
@@ -51,13 +51,13 @@ Albedo AlbedoKernel(const AlbedoLobe& lobe, const AlbedoRule& rule) {
   const auto two_a = hn::Set(d, 2 * lobe.one_plus_lambda_v);
 
   // Single-precision partial sums over a stretch of points, then double over the stretches.
-  constexpr std::size_t kStretch = 64 * AlbedoRule::kBlock;
+  constexpr std::size_t kStretch = 64 * AlbedoRule::block_size;
   double amplitude_sum = 0, fresnel_sum = 0;
   for (std::size_t begin = 0; begin < rule.size(); begin += kStretch) {
     const std::size_t end = std::min(begin + kStretch, rule.size());
-    HWY_ALIGN std::array<float, AlbedoRule::kBlock> amplitude{}, fresnel{};
-    for (std::size_t block = begin; block < end; block += AlbedoRule::kBlock) {
-      for (std::size_t lane = 0; lane < AlbedoRule::kBlock; lane += lanes) {
+    HWY_ALIGN std::array<float, AlbedoRule::block_size> amplitude{}, fresnel{};
+    for (std::size_t block = begin; block < end; block += AlbedoRule::block_size) {
+      for (std::size_t lane = 0; lane < AlbedoRule::block_size; lane += lanes) {
         const std::size_t i = block + lane;
         const auto depth = hn::Mul(hn::LoadU(d, &rule.height[i]), depth_of_cap);
         const auto sine = hn::Sqrt(hn::Mul(depth, hn::Sub(two, depth)));
@@ -90,7 +90,7 @@ Albedo AlbedoKernel(const AlbedoLobe& lobe, const AlbedoRule& rule) {
                    &fresnel[lane]);
       }
     }
-    for (std::size_t lane = 0; lane < AlbedoRule::kBlock; ++lane) {
+    for (std::size_t lane = 0; lane < AlbedoRule::block_size; ++lane) {
       amplitude_sum += static_cast<double>(amplitude[lane]);
       fresnel_sum += static_cast<double>(fresnel[lane]);
     }
@@ -107,7 +107,7 @@ namespace ltc {
 HWY_EXPORT(AlbedoKernel);
 
 AlbedoRule::AlbedoRule(std::size_t points) {
-  const std::size_t count = (points + kBlock - 1) / kBlock * kBlock;
+  const std::size_t count = (points + block_size - 1) / block_size * block_size;
   for (std::vector<float>* column :
        {&cos_azimuth, &sin_azimuth, &height, &one_minus_height, &weight})
     column->resize(count);

@@ -25,14 +25,14 @@ class AlbedoRule {
   // With this many points the largest absolute error over the 4096 nodes of the paper's grid is
   // 6.9e-5 (amplitude; 99th percentile 3.1e-5, median 2.2e-6) and 2.1e-5 (fresnel), against 2^18
   // points. The bound that holds and is tested is 1e-4.
-  static constexpr std::size_t kDefaultPoints = 12288;
+  static constexpr std::size_t default_points = 12288;
 
-  // `points` >= 1 is rounded up to a multiple of kBlock.
-  explicit AlbedoRule(std::size_t points = kDefaultPoints);
+  // `points` >= 1 is rounded up to a multiple of block_size.
+  explicit AlbedoRule(std::size_t points = default_points);
 
   // Points are summed in blocks of this size whatever the vector length of the processor, so that
   // the sums have the same bits everywhere.
-  static constexpr std::size_t kBlock = 16;
+  static constexpr std::size_t block_size = 16;
 
   std::size_t size() const { return weight.size(); }
 

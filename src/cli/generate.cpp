@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -29,26 +29,6 @@ struct Arguments {
   ConfigArguments config;
   std::string output = "out";
   int threads = default_threads();
-};
-
-// A signal handler reaches the run under way through this.
-std::atomic<Progress*> interruptible{nullptr};
-
-void stop_interruptible() {
-  if (Progress* progress = interruptible.load())
-    progress->request_stop();
-}
-
-// While it lives, an interrupt asks `progress` to stop.
-class StopOnInterrupt {
- public:
-  explicit StopOnInterrupt(Progress& progress) {
-    interruptible = &progress;
-    platform::on_interrupt(stop_interruptible);
-  }
-  ~StopOnInterrupt() { interruptible = nullptr; }
-  StopOnInterrupt(const StopOnInterrupt&) = delete;
-  StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
 };
 
 std::vector<fs::path> files_of(const OutputSettings& output, const fs::path& folder) {

@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "cli/entry_text.h"
 #include "cli/progress.h"
 #include "pipeline/summary.h"
 
@@ -13,19 +12,6 @@ namespace ltc::cli {
 namespace {
 
 constexpr std::size_t worst_count = 5;
-
-std::string entry_text(const Grid& grid, std::size_t flat) {
-  const NodeIndex node = grid.node(flat);
-  return fmt::format("{},{},{},{}", node.alpha, node.lambda, node.theta, node.phi);
-}
-
-std::string lobe_text(const Grid& grid, std::size_t flat) {
-  constexpr double degrees = 180 / std::numbers::pi;
-  const NodeIndex node = grid.node(flat);
-  return fmt::format("alpha {:.3f}, lambda {:.3f}, theta {:.1f}, phi {:.1f}",
-                     grid.alpha.nodes[node.alpha], grid.lambda.nodes[node.lambda],
-                     grid.theta.nodes[node.theta] * degrees, grid.phi.nodes[node.phi] * degrees);
-}
 
 std::string time_text(const RunReport& report) {
   std::string stages;

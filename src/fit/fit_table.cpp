@@ -8,9 +8,17 @@
 
 #include "core/parallel.h"
 #include "fit/lobe_frame.h"
+#include "table/symmetry.h"
 
 namespace ltc {
 namespace {
+
+// Seen from above, an isotropic lobe is round; its fit is but for the noise of its samples.
+Eigen::Matrix3d rounded_to_symmetry(const GgxLobe& lobe, Eigen::Matrix3d matrix) {
+  if (lobe.alpha_x == lobe.alpha_y && looks_upward(lobe.theta_radians))
+    matrix(0, 0) = matrix(1, 1) = (matrix(0, 0) + matrix(1, 1)) / 2;
+  return matrix;
+}
 
 void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
                FittedEntry& entry) {
@@ -25,7 +33,7 @@ void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& wo
     return;
   }
   entry.status = Status::fitted;
-  entry.matrix = result.matrix;
+  entry.matrix = rounded_to_symmetry(request.lobe, result.matrix);
   entry.loss = result.loss;
 }
 

@@ -2,10 +2,8 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "fit/lobe_frame.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "table/storage.h"
+#include "table/symmetry.h"
 
 namespace ltc {
 
@@ -29,21 +27,11 @@ Eigen::Matrix3d LobeFrame::from_matrix(const Eigen::Matrix3d& matrix) const {
 }
 
 FreeEntries free_entries(const GgxLobe& lobe) {
-  constexpr double tolerance = 1e-9;
-  const bool upright = std::abs(lobe.theta_radians) < tolerance;
-  const bool in_xz_plane = upright || std::abs(lobe.phi_radians) < tolerance;
-  const bool in_yz_plane = upright || std::abs(lobe.phi_radians - std::numbers::pi / 2) < tolerance;
-  const auto free = [&](int row, int column) {
-    if (row == column)
-      return true;
-    const bool touches_x = row == 0 || column == 0, touches_y = row == 1 || column == 1;
-    return !(in_xz_plane && touches_y) && !(in_yz_plane && touches_x);
-  };
-  FreeEntries entries;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      entries[3 * row + column] = free(row, column);
-  return entries;
+  const auto zeros = symmetry_zeros(lobe.theta_radians, lobe.phi_radians);
+  FreeEntries free;
+  for (int entry = 0; entry < 9; ++entry)
+    free[entry] = !zeros(entry / 3, entry % 3);
+  return free;
 }
 
 }  // namespace ltc

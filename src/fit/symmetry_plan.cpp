@@ -6,22 +6,24 @@
 #include <map>
 #include <tuple>
 
+#include "table/symmetry.h"
+
 namespace ltc {
 
 std::vector<PlannedEntry> plan_by_symmetry(const Grid& grid) {
-  constexpr double upright = 1e-9;  // radians
   using Key = std::tuple<double, double, double, double>;
   std::map<Key, std::size_t> first_of_kind;
   std::vector<PlannedEntry> plan(grid.size());
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
     const GgxLobe lobe = grid.lobe(grid.node(flat));
     const bool isotropic = lobe.alpha_x == lobe.alpha_y;
-    const bool any_azimuth = isotropic || lobe.theta_radians < upright;
+    const bool upward = looks_upward(lobe.theta_radians);
+    const bool any_azimuth = isotropic || upward;
     const Key key{lobe.alpha_x, lobe.alpha_y, lobe.theta_radians,
                   any_azimuth ? 0.0 : lobe.phi_radians};
     const std::size_t representative = first_of_kind.try_emplace(key, flat).first->second;
     plan[flat].representative = representative;
-    if (isotropic)
+    if (isotropic && !upward)
       plan[flat].turn_radians = lobe.phi_radians - grid.lobe(grid.node(representative)).phi_radians;
   }
   return plan;

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// The zeros that the symmetry of GGX demands of a table's matrices: equation (16) of Aakash et al.
-// 2022. They hold for the stored S of every storage as they do for M. At theta = 0 the matrix is
-// also the same for every phi: whoever fills a table fits one and copies it.
+// Enforces the zeros that symmetry demands of a table's matrices: equation (16) of Aakash et al.
+// 2022. At theta = 0 the matrix is also the same for every phi: whoever fills a table fits one and
+// copies it.
 #pragma once
 
 #include <Eigen/Core>
 
+#include "table/symmetry.h"
+
 namespace ltc {
-
-// A node within this many radians of theta = 0, phi = 0 or phi = pi/2 has that view's symmetry.
-inline constexpr double kSymmetryTolerance = 1e-9;
-
-// Which views have which symmetry.
-bool looks_upward(double theta_radians);                       // theta = 0
-bool looks_along_x(double theta_radians, double phi_radians);  // in the plane y = 0
-bool looks_along_y(double theta_radians, double phi_radians);  // in the plane x = 0
-
-// True where equation (16) wants a zero in the matrix of a view. An upward view has both
-// symmetries, which leave the diagonal.
-Eigen::Matrix<bool, 3, 3> symmetry_zeros(double theta_radians, double phi_radians);
 
 // Sets the zeros of equation (16). Returns the largest absolute value that it set to zero, 0 where
 // there was nothing to set; NaN if one of them was.

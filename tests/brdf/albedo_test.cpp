@@ -63,7 +63,7 @@ double largest_error(const Albedo& value, const Albedo& expected) {
 }
 
 TEST(Albedo, ConvergesBelowTheBound) {
-  const AlbedoRule coarse(256), standard, fine(8 * AlbedoRule::kDefaultPoints);
+  const AlbedoRule coarse(256), standard, fine(8 * AlbedoRule::default_points);
   double coarse_error = 0, standard_error = 0, fine_error = 0;
   for (const GgxLobe& lobe : hard_nodes()) {
     const Albedo expected = reference(lobe);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/entry_text.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace ltc::cli {
+
+std::string entry_text(const Grid& grid, std::size_t flat) {
+  const NodeIndex node = grid.node(flat);
+  return fmt::format("{},{},{},{}", node.alpha, node.lambda, node.theta, node.phi);
+}
+
+std::string lobe_text(const Grid& grid, std::size_t flat) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const NodeIndex node = grid.node(flat);
+  return fmt::format("alpha {:.3f}, lambda {:.3f}, theta {:.1f}, phi {:.1f}",
+                     grid.alpha.nodes[node.alpha], grid.lambda.nodes[node.lambda],
+                     grid.theta.nodes[node.theta] * degrees, grid.phi.nodes[node.phi] * degrees);
+}
+
+}  // namespace ltc::cli

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "pipeline/generate.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "align/align.h"
+#include "brdf/albedo.h"
+#include "core/parallel.h"
+#include "core/platform.h"
+#include "core/version.h"
+#include "fit/fit_table.h"
+#include "postprocess/normalise.h"
+#include "postprocess/symmetry.h"
+
+namespace ltc {
+namespace {
+
+bool has_matrix(const FittedEntry& entry) {
+  return entry.status == Status::fitted || entry.status == Status::copied;
+}
+
+struct NoState {};
+NoState no_state() {
+  return {};
+}
+
+void align_all(std::vector<FittedEntry>& entries, int threads, Progress* progress) {
+  parallel_for_each<NoState>("align", entries.size(), threads, progress, no_state,
+                             [&](std::size_t i, NoState&) {
+                               if (has_matrix(entries[i]))
+                                 entries[i].matrix = align(entries[i].matrix);
+                             });
+}
+
+// Equation (16) and unit third columns, and from M to what the table stores. At theta = 0 all phi
+// share one lobe; their matrices are made the same bits here.
+void post_process(const Grid& grid, const std::vector<FittedEntry>& entries, Table& table,
+                  GenerateReport& report) {
+  for (std::size_t flat = 0; flat < entries.size(); ++flat) {
+    const FittedEntry& entry = entries[flat];
+    table.status[flat] = entry.status;
+    table.iterations[flat] = static_cast<std::uint16_t>(
+        std::min(entry.steps, static_cast<int>(std::numeric_limits<std::uint16_t>::max())));
+    if (!has_matrix(entry))
+      continue;
+    const GgxLobe lobe = grid.lobe(grid.node(flat));
+    Eigen::Matrix3d matrix = entry.matrix;
+    const double zeroed = enforce_symmetry(lobe.theta_radians, lobe.phi_radians, matrix);
+    if (zeroed > report.largest_zeroed) {
+      report.largest_zeroed = zeroed;
+      report.largest_zeroed_entry = flat;
+    }
+    table.set_stored(flat, normalise(stored_from_matrix(table.storage, matrix, lobe)));
+    table.sw_loss[flat] = static_cast<float>(entry.loss);
+  }
+}
+
+void integrate_albedos(const Grid& grid, int threads, Progress* progress, Table& table) {
+  const AlbedoRule rule;
+  const std::vector<PlannedEntry> plan = plan_by_symmetry(grid);
+  parallel_for_each<NoState>(
+      "albedo", plan.size(), threads, progress, no_state, [&](std::size_t flat, NoState&) {
+        if (plan[flat].representative != flat || table.status[flat] == Status::skipped)
+          return;
+        const Albedo albedo = integrate_albedo(grid.lobe(grid.node(flat)), rule);
+        table.amplitude[flat] = static_cast<float>(albedo.amplitude);
+        table.fresnel[flat] = static_cast<float>(albedo.fresnel);
+      });
+  for (std::size_t flat = 0; flat < plan.size(); ++flat) {
+    if (table.status[flat] == Status::skipped)
+      continue;
+    table.amplitude[flat] = table.amplitude[plan[flat].representative];
+    table.fresnel[flat] = table.fresnel[plan[flat].representative];
+  }
+}
+
+}  // namespace
+
+Table generate_table(const Config& config, int threads, Progress* progress,
+                     GenerateReport* report) {
+  GenerateReport unread;
+  GenerateReport& result = report ? *report : unread;
+  auto lap = std::chrono::steady_clock::now();
+  const auto finish_stage = [&](const char* name) {
+    const auto now = std::chrono::steady_clock::now();
+    result.stage_seconds.emplace_back(name, std::chrono::duration<double>(now - lap).count());
+    lap = now;
+  };
+
+  Table table = Table::empty(config.grid, config.storage);
+  table.brdf = config.brdf;
+  table.seed = config.fit.seed;
+  table.config = to_toml(config);
+  table.generator = generator();
+  table.created = platform::utc_now_iso8601();
+
+  std::vector<FittedEntry> entries = fit_table(config.grid, config.fit, threads, progress);
+  finish_stage("fit");
+  align_all(entries, threads, progress);
+  finish_stage("align");
+  post_process(config.grid, entries, table, result);
+  finish_stage("post-process");
+  integrate_albedos(config.grid, threads, progress, table);
+  finish_stage("albedo");
+  return table;
+}
+
+}  // namespace ltc
