@@ -3,6 +3,7 @@
 // ltcfit diff: two tables judged by the same held-out samples.
 #include <fmt/format.h>
 
+#include <fstream>
 #include <memory>
 
 #include "cli/command.h"
@@ -11,6 +12,8 @@
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "core/error.h"
+#include "core/platform.h"
 #include "export/reader.h"
 #include "validate/compare.h"
 
@@ -19,6 +22,7 @@ namespace {
 
 struct Arguments {
   std::string a, b;
+  std::string csv;  // empty: none
   CompareSettings settings;
   int threads = default_threads();
 };
@@ -30,6 +34,20 @@ std::string row_text(const std::string& name, const RatioSummary& ratios) {
       "{:<12} {:>7} {:>11.4e} {:>11.4e} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f}\n", name,
       ratios.entries, ratios.mean_loss_a, ratios.mean_loss_b, ratios.mean, ratios.p50, ratios.p95,
       ratios.p99, ratios.largest);
+}
+
+void write_csv(const std::string& path, const Grid& grid,
+               const std::vector<EntryComparison>& entries) {
+  platform::write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream file(temporary);
+    file << "alpha,lambda,theta,phi,loss_a,loss_b,spread\n";
+    for (std::size_t flat = 0; flat < entries.size(); ++flat)
+      file << fmt::format("{},{},{},{}\n", entry_text(grid, flat), entries[flat].loss_a,
+                          entries[flat].loss_b, entries[flat].spread);
+    file.close();
+    if (!file)
+      throw IoError(fmt::format("cannot write {}", path));
+  });
 }
 
 void diff(const Arguments& arguments) {
@@ -56,6 +74,8 @@ void diff(const Arguments& arguments) {
   if (all.entries > 0)
     text += fmt::format("\nlargest ratio at entry {} ({})\n", entry_text(a.grid, all.largest_entry),
                         lobe_text(a.grid, all.largest_entry));
+  if (!arguments.csv.empty())
+    write_csv(arguments.csv, a.grid, entries);
   print(text);
 }
 
@@ -73,6 +93,7 @@ Action declare_diff(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--seed", arguments->settings.seed, "seed of the held-out sets")
       ->capture_default_str();
+  app.add_option("--csv", arguments->csv, "write every entry's losses to this file");
   add_threads_option(app, arguments->threads);
   return [arguments] { diff(*arguments); };
 }

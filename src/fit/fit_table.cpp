@@ -24,8 +24,6 @@ void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& wo
                FittedEntry& entry) {
   const FitResult result = solver.fit(request, workspace, nullptr);
   entry.steps += result.steps;
-  if (entry.status == Status::fitted && !(result.loss < entry.loss))
-    return;
   if (result.outcome == FitOutcome::non_finite) {
     entry.status = Status::failed;
     entry.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -108,7 +106,8 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
     copy_by_symmetry(plan, results);
   };
   const auto plain_request = [&](std::size_t flat) {
-    return FitRequest{grid.lobe(grid.node(flat)), entry_seed(settings.seed, flat), {}, progress};
+    return FitRequest{
+        grid.lobe(grid.node(flat)), entry_seed(settings.seed, flat), {}, {}, progress};
   };
   fit_all("fit", plain_request, entries);
   const int sweeps =
@@ -120,6 +119,9 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
         [&](std::size_t flat) {
           FitRequest request = plain_request(flat);
           request.starts = neighbour_starts(grid, flat, entries);
+          if (entries[flat].status == Status::fitted)
+            request.incumbent =
+                FitResult{entries[flat].matrix, entries[flat].loss, 0, FitOutcome::converged};
           return request;
         },
         improved);

@@ -18,6 +18,22 @@ std::size_t bins_for(int samples) {
   return static_cast<std::size_t>(std::clamp(samples / 16, 32, 256));
 }
 
+// A start is descended from, beside an incumbent, when its loss is below this many times the
+// incumbent's: one that is worse has never overtaken it.
+constexpr double promising_share = 1.5;
+
+// A coarse gain below this share is within the noise of the coarse samples.
+constexpr double worthwhile_gain = 2e-3;
+
+bool usable(const Eigen::Matrix3d& start) {
+  return start.allFinite() && start.determinant() > 0;
+}
+
+FitResult no_result(int steps) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return {Eigen::Matrix3d::Constant(nan), nan, steps, FitOutcome::non_finite};
+}
+
 }  // namespace
 
 GaussNewtonSolver::Phase GaussNewtonSolver::make_phase(int samples, int directions, int steps,
@@ -44,17 +60,13 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
   fine_.options.damping = 1e-3;  // it starts next to a minimum
 }
 
-void GaussNewtonSolver::prepare_target(const LobeFrame& frame, std::uint64_t seed,
-                                       FitWorkspace& workspace) const {
+void GaussNewtonSolver::sample_target(const LobeFrame& frame, std::uint64_t seed,
+                                      FitWorkspace& workspace) const {
   if (target_kind_ == TargetKind::weighted)
     sample_weighted_target(frame, lattice_, workspace.target);
   else
     sample_rejection_target(frame, static_cast<std::size_t>(settings_.target_samples), seed,
                             workspace.target);
-  workspace.coarse_quantiles.build(workspace.target, coarse_.directions, coarse_.bins,
-                                   workspace.model.xi, workspace.model.bins);
-  workspace.fine_quantiles.build(workspace.target, fine_.directions, fine_.bins, workspace.model.xi,
-                                 workspace.model.bins);
 }
 
 std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& frame,
@@ -68,24 +80,16 @@ std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& fram
   return starts;
 }
 
-FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& workspace,
-                                 std::vector<FitStep>* trace) const {
-  const LobeFrame frame(request.lobe);
-  const FreeEntries free = free_entries(request.lobe);
-  prepare_target(frame, request.seed, workspace);
-
-  std::vector<Eigen::Matrix3d> starts;
-  for (const Eigen::Matrix3d& matrix : request.starts)
-    starts.push_back(admissible(frame.from_matrix(matrix), free));
-  if (starts.empty())
-    starts = own_starts(frame, request.seed, workspace);
-
-  FitResult result;
+Descent GaussNewtonSolver::best_coarse_descent(const LobeFrame& frame,
+                                               const std::vector<Eigen::Matrix3d>& starts,
+                                               FitWorkspace& workspace, FitResult& result,
+                                               std::vector<FitStep>* trace) const {
+  const FreeEntries free = free_entries(frame.lobe);
   DescentOptions options = coarse_.options;
   Descent best;
   best.loss = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (!(starts[i].allFinite() && starts[i].determinant() > 0))
+    if (!usable(starts[i]))
       continue;
     options.phase = static_cast<int>(i);
     const Descent descent = minimise(frame, starts[i], free, coarse_.cosines,
@@ -94,17 +98,70 @@ FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& worksp
     if (descent.loss < best.loss)
       best = descent;
   }
-  if (!(best.loss < std::numeric_limits<double>::infinity())) {
-    result.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
-    result.loss = std::numeric_limits<double>::quiet_NaN();
-    result.outcome = FitOutcome::non_finite;
+  return best;
+}
+
+std::vector<Eigen::Matrix3d> GaussNewtonSolver::promising(
+    const LobeFrame& frame, const std::vector<Eigen::Matrix3d>& starts, double loss_to_beat,
+    FitWorkspace& workspace) const {
+  std::vector<Eigen::Matrix3d> kept;
+  double best = promising_share * loss_to_beat;
+  ModelValue value;
+  for (const Eigen::Matrix3d& start : starts) {
+    if (!usable(start))
+      continue;
+    evaluate_model(frame, start, coarse_.cosines, workspace.coarse_quantiles,
+                   workspace.coarse_quantiles.spread(), workspace.model, value);
+    if (value.loss < best) {
+      best = value.loss;
+      kept.assign(1, start);
+    }
+  }
+  return kept;
+}
+
+FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& workspace,
+                                 std::vector<FitStep>* trace) const {
+  const LobeFrame frame(request.lobe);
+  const FreeEntries free = free_entries(request.lobe);
+  sample_target(frame, request.seed, workspace);
+  workspace.coarse_quantiles.build(workspace.target, coarse_.directions, coarse_.bins,
+                                   workspace.model.xi, workspace.model.bins);
+
+  std::vector<Eigen::Matrix3d> starts;
+  for (const Eigen::Matrix3d& matrix : request.starts)
+    starts.push_back(admissible(frame.from_matrix(matrix), free));
+  if (starts.empty())
+    starts = own_starts(frame, request.seed, workspace);
+
+  FitResult result;
+  double loss_to_beat = std::numeric_limits<double>::infinity();
+  if (request.incumbent) {
+    result = *request.incumbent;
+    result.steps = 0;
+    // The incumbent settles on the coarse samples before it is compared on them.
+    const Descent settled =
+        minimise(frame, admissible(frame.from_matrix(result.matrix), free), free, coarse_.cosines,
+                 workspace.coarse_quantiles, coarse_.options, workspace.model, nullptr);
+    result.steps += settled.steps;
+    loss_to_beat = settled.loss;
+    starts = promising(frame, starts, loss_to_beat, workspace);
+  }
+  const Descent best = best_coarse_descent(frame, starts, workspace, result, trace);
+  if (!(best.loss < (1 - worthwhile_gain) * loss_to_beat)) {
+    if (!request.incumbent)
+      result = no_result(result.steps);
     return result;
   }
-  options = fine_.options;
+  workspace.fine_quantiles.build(workspace.target, fine_.directions, fine_.bins, workspace.model.xi,
+                                 workspace.model.bins);
+  DescentOptions options = fine_.options;
   options.phase = static_cast<int>(starts.size());
   const Descent descent = minimise(frame, best.frame_matrix, free, fine_.cosines,
                                    workspace.fine_quantiles, options, workspace.model, trace);
   result.steps += descent.steps;
+  if (request.incumbent && !(descent.loss < result.loss))
+    return result;
   result.matrix = frame.to_matrix(descent.frame_matrix);
   result.loss = descent.loss;
   result.outcome = descent.converged ? FitOutcome::converged : FitOutcome::step_limit;

@@ -30,9 +30,17 @@ class GaussNewtonSolver final : public Solver {
   };
   static Phase make_phase(int samples, int directions, int steps, double shift);
 
-  void prepare_target(const LobeFrame& frame, std::uint64_t seed, FitWorkspace& workspace) const;
+  void sample_target(const LobeFrame& frame, std::uint64_t seed, FitWorkspace& workspace) const;
   std::vector<Eigen::Matrix3d> own_starts(const LobeFrame& frame, std::uint64_t seed,
                                           const FitWorkspace& workspace) const;
+
+  Descent best_coarse_descent(const LobeFrame& frame, const std::vector<Eigen::Matrix3d>& starts,
+                              FitWorkspace& workspace, FitResult& result,
+                              std::vector<FitStep>* trace) const;
+  // The start of least loss, where that is not hopeless beside `loss_to_beat`; none otherwise.
+  std::vector<Eigen::Matrix3d> promising(const LobeFrame& frame,
+                                         const std::vector<Eigen::Matrix3d>& starts,
+                                         double loss_to_beat, FitWorkspace& workspace) const;
 
   GaussNewtonSettings settings_;
   TargetKind target_kind_;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "brdf/ggx.h"
@@ -43,6 +44,9 @@ struct FitRequest {
   std::uint64_t seed = 0;
   // Matrices to start from; empty for the solver's own starting points.
   std::vector<Eigen::Matrix3d> starts;
+  // A solution that is known already. Where no start promises better, it is given back as it came
+  // with no more work than that takes to see (Gauss-Newton only).
+  std::optional<FitResult> incumbent;
   // Where not null and a stop is asked for, the fit ends early with whatever it has.
   const Progress* progress = nullptr;
 };
