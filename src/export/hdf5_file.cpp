@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "export/file.h"
+#include "export/hdf5_heap.h"
 
 namespace ltc {
 namespace {
@@ -90,6 +91,12 @@ std::size_t product(const std::vector<std::size_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
 
+// For good, not for the time of a call: after a damaged file the library complains of itself once
+// more when the program ends.
+void keep_library_errors_off_the_terminal() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 Hdf5Handle dataspace_of(const std::vector<std::size_t>& shape) {
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   return {H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose};
@@ -115,19 +122,11 @@ std::string text_of_fixed_length(hid_t attribute, hid_t type, bool& ok) {
 
 }  // namespace
 
-Hdf5Silence::Hdf5Silence() {
-  H5E_auto2_t function = nullptr;
-  H5Eget_auto2(H5E_DEFAULT, &function, &data_);
-  function_ = reinterpret_cast<void*>(function);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
-Hdf5Silence::~Hdf5Silence() {
-  H5Eset_auto2(H5E_DEFAULT, reinterpret_cast<H5E_auto2_t>(function_), data_);
-}
-
 Hdf5Input::Hdf5Input(const std::filesystem::path& path) : name_(path.string()) {
+  keep_library_errors_off_the_terminal();
   require_readable(path);
+  if (!global_heaps_are_sound(path))
+    refuse("the texts of the file are damaged");
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Tables are renamed into place whole, so a reader needs no lock, and some file systems have
   // none.
@@ -231,10 +230,13 @@ std::vector<T> Hdf5Input::values(const std::string& dataset,
 
 Hdf5Output::Hdf5Output(const std::filesystem::path& path, std::string shown_as)
     : name_(std::move(shown_as)) {
+  keep_library_errors_off_the_terminal();
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access.id(), false, true);
+  // The format of HDF5 1.8, which every reader of today knows: its metadata carry checksums.
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
   file_ = checked({H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose},
                   "the file cannot be created");
 }

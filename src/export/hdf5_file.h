@@ -40,19 +40,6 @@ class Hdf5Handle {
   int (*close_)(Id) = nullptr;
 };
 
-// No message of the HDF5 library reaches the terminal while one of these lives.
-class Hdf5Silence {
- public:
-  Hdf5Silence();
-  ~Hdf5Silence();
-  Hdf5Silence(const Hdf5Silence&) = delete;
-  Hdf5Silence& operator=(const Hdf5Silence&) = delete;
-
- private:
-  void* function_ = nullptr;
-  void* data_ = nullptr;
-};
-
 // Reads. An object is a path in the file ("/", "axis/alpha"). Throws IoError for a file that cannot
 // be opened, InputError naming file and object for one that is no HDF5 file, or for an object that
 // is missing, damaged, or of another type or shape than asked for.
@@ -79,7 +66,6 @@ class Hdf5Input {
   T scalar(const std::string& object, const std::string& attribute, bool any_size) const;
   [[noreturn]] void refuse(const std::string& what) const;
 
-  Hdf5Silence silence_;
   std::string name_;
   Hdf5Handle file_;
 };
@@ -107,7 +93,6 @@ class Hdf5Output {
   void check(bool ok, const std::string& what) const;
   Hdf5Handle checked(Hdf5Handle handle, const std::string& what) const;
 
-  Hdf5Silence silence_;
   std::string name_;
   Hdf5Handle file_;
 };

@@ -4,6 +4,7 @@
 #include "export/hdf5.h"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <cmath>
 #include <limits>
@@ -263,6 +264,22 @@ TEST(Hdf5, TruncatedAnywhereIsRefused) {
   }
   testing::write_bytes(folder / "cut.h5", whole.substr(0, whole.size() - 1));
   EXPECT_NE(refusal(folder / "cut.h5"), "");
+}
+
+// A flipped bit may leave a table, or one of other content; it must not crash or leak.
+TEST(Hdf5, FlippedBitsAreRefusedOrHarmlessAndNoHandleStaysOpen) {
+  const TemporaryFolder folder;
+  write_hdf5(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "t.h5");
+  const std::string whole = bytes_of(folder / "t.h5");
+  int refused = 0;
+  for (std::size_t i = 0; i < whole.size(); i += 29) {
+    std::string flipped = whole;
+    flipped[i] = static_cast<char>(flipped[i] ^ (1 << i % 8));
+    testing::write_bytes(folder / "t.h5", flipped);
+    refused += !refusal(folder / "t.h5").empty();
+  }
+  EXPECT_GT(refused, 50);
+  EXPECT_EQ(H5Fget_obj_count(static_cast<hid_t>(H5F_OBJ_ALL), H5F_OBJ_ALL), 0);
 }
 
 TEST(Hdf5, MissingAndUnreadableFilesAreIoErrorsThatNameThem) {
