@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace ltc {
+namespace {
+
+class Watched final : public Progress {
+ public:
+  void begin_stage(std::string_view name, std::size_t units) override {
+    stage = name;
+    total = units;
+  }
+  void end_stage() override { ended = true; }
+  std::string stage;
+  std::size_t total = 0;
+  bool ended = false;
+};
+
+const auto no_state = [] { return 0; };
+
+TEST(Parallel, DoesEveryPieceOfWorkOnce) {
+  for (const int threads : {1, 2, 16}) {
+    std::vector<int> done(1000, 0);
+    std::atomic<int> states{0};
+    Watched progress;
+    parallel_for_each<int>(
+        "work", done.size(), threads, &progress, [&] { return ++states; },
+        [&](std::size_t i, int&) { ++done[i]; });
+    EXPECT_EQ(done, std::vector<int>(1000, 1));
+    EXPECT_EQ(states, threads);
+    EXPECT_EQ(progress.done(), 1000u);
+    EXPECT_EQ(progress.stage, "work");
+    EXPECT_EQ(progress.total, 1000u);
+    EXPECT_TRUE(progress.ended);
+  }
+}
+
+TEST(Parallel, WorksWithoutAWatcherAndWithoutWork) {
+  int done = 0;
+  parallel_for_each<int>("none", 0, 2, nullptr, no_state, [&](std::size_t, int&) { ++done; });
+  EXPECT_EQ(done, 0);
+}
+
+TEST(Parallel, AnExceptionOfTheWorkArrivesAndEndsIt) {
+  for (const int threads : {1, 2, 16}) {
+    std::atomic<int> done{0};
+    Watched progress;
+    try {
+      parallel_for_each<int>("work", 1000000, threads, &progress, no_state,
+                             [&](std::size_t i, int&) {
+                               if (i == 3)
+                                 throw std::runtime_error("at 3");
+                               ++done;
+                             });
+      FAIL() << "no exception";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "at 3");
+    }
+    EXPECT_LT(done, 1000000 - 1);
+    EXPECT_TRUE(progress.ended);
+  }
+}
+
+TEST(Parallel, AnExceptionOfMakeStateArrives) {
+  for (const int threads : {1, 2, 16}) {
+    std::atomic<int> made{0};
+    EXPECT_THROW(parallel_for_each<int>(
+                     "work", 100, threads, nullptr,
+                     [&]() -> int {
+                       if (++made == 1)
+                         throw std::out_of_range("no state");
+                       return 0;
+                     },
+                     [](std::size_t, int&) {}),
+                 std::out_of_range);
+  }
+}
+
+TEST(Parallel, AStopIsThrownAsInterrupted) {
+  for (const int threads : {1, 2, 16}) {
+    Watched progress;
+    std::atomic<int> done{0};
+    EXPECT_THROW(parallel_for_each<int>("work", 1000000, threads, &progress, no_state,
+                                        [&](std::size_t, int&) {
+                                          if (++done == 5)
+                                            progress.request_stop();
+                                        }),
+                 Interrupted);
+    EXPECT_LT(done, 1000000);
+    EXPECT_TRUE(progress.ended);
+  }
+}
+
+TEST(Parallel, AnExceptionComesBeforeAStop) {
+  Watched progress;
+  EXPECT_THROW(parallel_for_each<int>("work", 10, 2, &progress, no_state,
+                                      [&](std::size_t, int&) {
+                                        progress.request_stop();
+                                        throw std::runtime_error("failed");
+                                      }),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace ltc

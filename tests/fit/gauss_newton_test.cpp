@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "fit/gauss_newton.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+#include "fit/lobes.h"
+#include "fit/starting_points.h"
+#include "statistics.h"
+
+namespace ltc {
+namespace {
+
+// Matrices of the same lobe agree once scale and the rotation about z are taken out: M M^T up to a
+// factor does, and determines the density. With P and the roughness: (PA)(PA)^T, here of unit
+// determinant. The digits in which its entries agree, in the variables where all entries of P are
+// of the order of one.
+double matching_digits(const LobeFrame& frame, const Eigen::Matrix3d& found,
+                       const Eigen::Matrix3d& planted) {
+  const auto shape = [&](const Eigen::Matrix3d& p) {
+    const Eigen::Vector3d roughness(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
+    const Eigen::Matrix3d m = p * roughness.asDiagonal();
+    Eigen::Matrix3d square = m * m.transpose();
+    square /= std::cbrt(square.determinant());
+    return square;
+  };
+  const Eigen::Matrix3d a = shape(found), b = shape(planted);
+  return -std::log10((a - b).norm() / b.norm());
+}
+
+struct Planted {
+  Planted(const GgxLobe& lobe, std::uint64_t seed) : frame(lobe) {
+    test::Uniform uniform(seed);
+    planted = frame.first_order;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 2; ++column)
+        planted(row, column) *= 0.8 + 0.4 * uniform();
+    planted(0, 2) = 0.2 * uniform() * lobe.alpha_x;
+    planted(1, 2) = -0.2 * uniform() * lobe.alpha_y;
+    // Another lattice than the fit's, sixteen times as fine.
+    samples = test::planted_target(frame, planted, make_cosine_set(16384, 0.41));
+    quantiles.build(samples, test::in_float(fibonacci_directions(32)), 64, workspace.xi,
+                    workspace.bins);
+  }
+
+  Descent descend(const Eigen::Matrix3d& start, int steps, std::vector<FitStep>* trace = nullptr) {
+    DescentOptions options;
+    options.steps = steps;
+    options.tolerance = 0;
+    return minimise(frame, start, free_entries(frame.lobe), cosines, quantiles, options, workspace,
+                    trace);
+  }
+
+  LobeFrame frame;
+  Eigen::Matrix3d planted;
+  TargetSamples samples;
+  CosineSet cosines = make_cosine_set(1024);
+  TargetQuantiles quantiles;
+  ModelWorkspace workspace;
+};
+
+const std::vector<GgxLobe> kPlantedLobes = {
+    {0.5, 0.4, 0.6, 0.4}, {0.8, 0.3, 0.9, 1.0}, {0.3, 0.1, 1.0, 1.2}, {0.05, 0.02, 0.5, 0.7}};
+
+TEST(GaussNewton, FindsAPlantedOptimumFromSeveralStarts) {
+  std::uint64_t seed = 1;
+  for (const GgxLobe& lobe : kPlantedLobes) {
+    Planted problem(lobe, seed++);
+    const Eigen::Matrix3d starts[] = {
+        first_order_start(problem.frame), moment_start(problem.frame, problem.samples),
+        identity_start(problem.frame), random_start(problem.frame, problem.samples, 5)};
+    for (std::size_t s = 0; s < std::size(starts); ++s) {
+      const Descent descent = problem.descend(starts[s], 60);
+      const double digits = matching_digits(problem.frame, descent.frame_matrix, problem.planted);
+      // Measured: 2.77 to 3.34 digits and 0.0024 to 0.0076 of the spread, from starts of -0.19 to
+      // 1.6 digits; what is missing is the difference of the two lattices.
+      EXPECT_GT(digits, 2.5) << test::describe(lobe) << " start " << s;
+      EXPECT_LT(descent.loss, 0.01 * problem.quantiles.spread());
+    }
+  }
+}
+
+TEST(GaussNewton, ScoresAWrongMatrixLow) {
+  const LobeFrame frame({0.5, 0.4, 0.6, 0.4});
+  Eigen::Matrix3d wrong = frame.first_order;
+  wrong.col(0) *= 1.1;
+  EXPECT_LT(matching_digits(frame, wrong, frame.first_order), 1.5);
+  // Scale and rotation about z do not count.
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << 0.8, -0.6, 0.6, 0.8;
+  const Eigen::DiagonalMatrix<double, 3> roughness(0.5, 0.4, 1);
+  EXPECT_GT(matching_digits(frame, 3 * frame.first_order * roughness * turn * roughness.inverse(),
+                            frame.first_order),
+            12);
+}
+
+TEST(GaussNewton, TakesNoStepThatLoses) {
+  // The objective falls at every accepted step; the loss alone may rise by what the prior falls,
+  // which is 1e-6 times the squared distance of P from P0. Starts so far away that this is more
+  // than the loss (the identity of a lobe 1e-6 wide, where it is 1e6) prove nothing and are left
+  // out; of the others none has risen.
+  int followed = 0;
+  for (const GgxLobe& lobe : test::all_lobes()) {
+    const LobeFrame frame(lobe);
+    TargetSamples samples;
+    sample_weighted_target(frame, make_target_lattice(4096, 0.3), samples);
+    TargetQuantiles quantiles;
+    ModelWorkspace workspace;
+    quantiles.build(samples, test::in_float(fibonacci_directions(16)), 32, workspace.xi,
+                    workspace.bins);
+    const CosineSet cosines = make_cosine_set(256);
+    for (const Eigen::Matrix3d& start :
+         {first_order_start(frame), moment_start(frame, samples), identity_start(frame),
+          random_start(frame, samples, 3), random_start(frame, samples, 4)}) {
+      DescentOptions options;
+      options.steps = 30;
+      std::vector<FitStep> trace;
+      const Descent descent = minimise(frame, start, free_entries(lobe), cosines, quantiles,
+                                       options, workspace, &trace);
+      EXPECT_LE(static_cast<std::size_t>(descent.steps), trace.size());
+      EXPECT_TRUE(descent.frame_matrix.allFinite()) << test::describe(lobe);
+      EXPECT_GT(descent.frame_matrix.determinant(), 0) << test::describe(lobe);
+      EXPECT_GT(frame.to_matrix(descent.frame_matrix).determinant(), 0) << test::describe(lobe);
+      EXPECT_NEAR(descent.frame_matrix.col(2).norm(), 1, 1e-14);
+      for (int entry = 0; entry < 9; ++entry)
+        if (!free_entries(lobe)[entry]) {
+          EXPECT_EQ(descent.frame_matrix(entry / 3, entry % 3), 0) << test::describe(lobe);
+        }
+      ModelValue value;
+      evaluate_model(frame, start / start.col(2).norm(), cosines, quantiles, 1, workspace, value);
+      if (1e-6 * (start - frame.first_order).squaredNorm() > 0.1 * value.loss)
+        continue;
+      ++followed;
+      double previous = value.loss;
+      for (const FitStep& step : trace) {
+        if (!step.accepted)
+          continue;
+        EXPECT_LE(step.loss, previous) << test::describe(lobe);
+        previous = step.loss;
+      }
+      EXPECT_EQ(descent.loss, previous) << test::describe(lobe);
+    }
+  }
+  EXPECT_GE(followed, 36);  // of 60; measured: 40
+}
+
+TEST(GaussNewton, AMatrixThatIsNotFiniteIsNotImprovedInto) {
+  Planted problem({0.5, 0.4, 0.6, 0.4}, 1);
+  Eigen::Matrix3d start = problem.planted;
+  start(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  const Descent descent = problem.descend(start, 30);
+  EXPECT_TRUE(std::isnan(descent.loss));
+}
+
+TEST(GaussNewton, ZeroStepsReturnTheStart) {
+  Planted problem({0.5, 0.4, 0.6, 0.4}, 1);
+  const Eigen::Matrix3d start = first_order_start(problem.frame);
+  const Descent descent = problem.descend(start, 0);
+  EXPECT_EQ(descent.steps, 0);
+  EXPECT_LT((descent.frame_matrix - start).norm(), 1e-14);
+  EXPECT_FALSE(descent.converged);
+}
+
+TEST(GaussNewtonSolver, ReturnsAPositiveDeterminantAndTheSameBitsInAnyWorkspace) {
+  const std::unique_ptr<Solver> solver = make_solver({});
+  FitWorkspacePointer shared = make_fit_workspace();
+  for (const GgxLobe& lobe : test::all_lobes()) {
+    FitRequest request;
+    request.lobe = lobe;
+    const FitResult used = solver->fit(request, *shared, nullptr);
+    const FitResult fresh = solver->fit(request, *make_fit_workspace(), nullptr);
+    EXPECT_EQ(used.matrix, fresh.matrix) << test::describe(lobe);
+    EXPECT_EQ(used.loss, fresh.loss) << test::describe(lobe);
+    EXPECT_GT(used.matrix.determinant(), 0) << test::describe(lobe);
+    EXPECT_NE(used.outcome, FitOutcome::non_finite) << test::describe(lobe);
+  }
+}
+
+TEST(GaussNewtonSolver, SaysWhereNoStartIsFinite) {
+  const std::unique_ptr<Solver> solver = make_solver({});
+  FitRequest request;
+  request.lobe = {0.5, 0.4, 0.6, 0.4};
+  request.starts = {Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()),
+                    Eigen::Matrix3d::Zero()};
+  const FitResult result = solver->fit(request, *make_fit_workspace(), nullptr);
+  EXPECT_EQ(result.outcome, FitOutcome::non_finite);
+  EXPECT_FALSE(result.matrix.allFinite());
+}
+
+}  // namespace
+}  // namespace ltc
