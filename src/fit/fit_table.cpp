@@ -30,7 +30,7 @@ void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& wo
     entry.loss = std::numeric_limits<double>::quiet_NaN();
     return;
   }
-  entry.status = Status::fitted;
+  entry.status = result.outcome == FitOutcome::analytic ? Status::analytic : Status::fitted;
   entry.matrix = rounded_to_symmetry(request.lobe, result.matrix);
   entry.loss = result.loss;
 }
@@ -44,7 +44,7 @@ std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat
   const LobeFrame frame(grid.lobe(node));
   const auto add = [&](const NodeIndex& neighbour) {
     const FittedEntry& entry = entries[grid.flat(neighbour)];
-    if (entry.status == Status::fitted || entry.status == Status::copied)
+    if (has_values(entry.status))
       starts.push_back(frame.to_matrix(LobeFrame(grid.lobe(neighbour)).from_matrix(entry.matrix)));
   };
   const auto shape = grid.shape();
@@ -71,7 +71,7 @@ void copy_by_symmetry(const std::vector<PlannedEntry>& plan, std::vector<FittedE
       continue;
     const FittedEntry& source = entries[representative];
     entries[flat] = {turned(source.matrix, plan[flat].turn_radians), source.loss, 0,
-                     source.status == Status::fitted ? Status::copied : source.status};
+                     has_values(source.status) ? Status::copied : source.status};
   }
 }
 
@@ -119,7 +119,7 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
         [&](std::size_t flat) {
           FitRequest request = plain_request(flat);
           request.starts = neighbour_starts(grid, flat, entries);
-          if (entries[flat].status == Status::fitted)
+          if (has_values(entries[flat].status))
             request.incumbent =
                 FitResult{entries[flat].matrix, entries[flat].loss, 0, FitOutcome::converged};
           return request;

@@ -5,35 +5,39 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
 namespace ltc {
 namespace {
 
-// Squared distance of columns 0 and 1 of P from P0's counts this much: enough to decide what the
-// samples of a sharp lobe leave open (its tails), far too little to matter where they speak.
-constexpr double prior_weight = 1e-6;
+// Squared distance of columns 0 and 1 of P from P0's counts this much of the lobe's spread in lobes
+// narrower than `prior_roughness`, and less by its square ratio in wider ones: P differs from P0 by
+// the order of the roughness, and with a few thousand samples the tails of a sharp lobe, which are
+// all that row 3 moves, are left open.
+constexpr double prior_weight = 1e-2;
+constexpr double prior_roughness = 1e-3;
 
 // Smoothing e of the reweighting, as a share of the loss: below it a residual counts as zero.
 constexpr double smoothing_share = 0.05;
-
-// Reweighted least squares majorises the L1 loss: its steps are too short by about this factor.
-constexpr double over_relaxation = 1.3;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 // Adds the prior to the model at P, and returns its own value.
-double add_prior(const LobeFrame& frame, const Eigen::Matrix3d& p, ModelValue& value) {
+double add_prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p,
+                 ModelValue& value) {
   double penalty = 0;
   const double largest = std::max(frame.lobe.alpha_x, frame.lobe.alpha_y);
+  const double wide = largest / prior_roughness;
+  const double strength = prior_weight * spread / (1 + wide * wide);
   const double share[2] = {frame.lobe.alpha_x / largest, frame.lobe.alpha_y / largest};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 2; ++column) {
       const double difference = p(row, column) - frame.first_order(row, column);
-      const double weight = prior_weight * share[column] * share[column];
+      const double weight = strength * share[column] * share[column];
       penalty += 0.5 * weight * difference * difference;
       value.gradient[3 * row + column] += weight * difference;
       value.curvature(3 * row + column, 3 * row + column) += weight;
@@ -71,6 +75,43 @@ Eigen::Matrix3d damped_step(const ModelValue& value, const FreeEntries& free, do
   return step;
 }
 
+// What accepted steps have shown of the true curvature. Reweighted least squares majorises the L1
+// loss, so that its curvature is too large, by a factor that differs from direction to direction,
+// and its steps too short. BFGS updates of the model's curvature with the last few steps and
+// changes of the gradient mend that.
+class CurvatureCorrection {
+ public:
+  void add(const Vector9& step, const Vector9& gradient_change) {
+    steps_[count_ % capacity] = step;
+    changes_[count_ % capacity] = gradient_change;
+    ++count_;
+  }
+  void apply(Matrix9& curvature) const {
+    for (std::size_t i = count_ < capacity ? 0 : count_ - capacity; i < count_; ++i) {
+      const Vector9& step = steps_[i % capacity];
+      const Vector9& change = changes_[i % capacity];
+      const Vector9 expected = curvature * step;
+      const double model = step.dot(expected), seen = step.dot(change);
+      if (!(model > 0) || seen < least_share * model)
+        continue;
+      curvature += change * change.transpose() / seen - expected * expected.transpose() / model;
+    }
+  }
+
+ private:
+  static constexpr std::size_t capacity = 4;
+  static constexpr double least_share = 0.05;
+  std::array<Vector9, capacity> steps_, changes_;
+  std::size_t count_ = 0;
+};
+
+Vector9 flattened(const Eigen::Matrix3d& matrix) {
+  Vector9 flat;
+  for (int i = 0; i < 9; ++i)
+    flat[i] = matrix(i / 3, i % 3);
+  return flat;
+}
+
 }  // namespace
 
 Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const FreeEntries& free,
@@ -83,11 +124,13 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
   double smoothing = smoothing_share * target.spread();
   evaluate_model(frame, best.frame_matrix, cosines, target, smoothing, workspace, value);
   best.loss = value.loss;
-  double objective = value.loss + add_prior(frame, best.frame_matrix, value);
+  double objective = value.loss + add_prior(frame, target.spread(), best.frame_matrix, value);
   double damping = options.damping;
-  const auto begin = std::chrono::steady_clock::now();
+  CurvatureCorrection correction;
   for (; best.steps < options.steps; ++best.steps) {
-    Eigen::Matrix3d trial = best.frame_matrix + over_relaxation * damped_step(value, free, damping);
+    if (options.progress && options.progress->stop_requested())
+      break;
+    Eigen::Matrix3d trial = best.frame_matrix + damped_step(value, free, damping);
     // The lobe of M is that of M diag(1, -1, 1): a step through a flat lobe comes out on the other
     // side, and is turned back.
     if (trial.determinant() < 0)
@@ -99,21 +142,24 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
     if (accepted) {
       evaluate_model(frame, trial, cosines, target, smoothing, workspace, trial_value);
       const double loss = trial_value.loss;
-      trial_objective = loss + add_prior(frame, trial, trial_value);
+      trial_objective = loss + add_prior(frame, target.spread(), trial, trial_value);
       accepted = trial_objective < objective;
     }
     if (trace)
       trace->push_back({accepted ? trial_value.loss : best.loss, value.gradient.norm(), damping,
-                        seconds_since(begin), accepted, options.phase});
+                        seconds_since(options.begin), accepted, options.phase});
     if (!accepted) {
       damping *= 8;
       if (damping > 1e3) {
         best.converged = true;
+        ++best.steps;
         break;
       }
       continue;
     }
     const double gain = objective - trial_objective;
+    correction.add(flattened(trial - best.frame_matrix), trial_value.gradient - value.gradient);
+    correction.apply(trial_value.curvature);
     best.frame_matrix = trial;
     best.loss = trial_value.loss;
     std::swap(value, trial_value);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <chrono>
 #include <vector>
 
 #include "fit/quantile_model.h"
@@ -15,7 +16,10 @@ struct DescentOptions {
   int steps = 10;           // most steps, accepted or not
   double tolerance = 1e-3;  // stop when an accepted step gains less than this share of the loss
   double damping = 1e-2;    // first damping, relative to the curvature's diagonal
-  int phase = 0;            // what a trace calls these steps
+  // What a trace calls these steps, and since when it counts time.
+  int phase = 0;
+  std::chrono::steady_clock::time_point begin = {};
+  const Progress* progress = nullptr;  // where not null, a stop asked for ends it early
 };
 
 struct Descent {

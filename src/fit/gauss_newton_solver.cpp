@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 #include "fit/starting_points.h"
@@ -24,6 +25,15 @@ constexpr double promising_share = 1.5;
 
 // A coarse gain below this share is within the noise of the coarse samples.
 constexpr double worthwhile_gain = 2e-3;
+
+// P0's error, relative to the lobe's width, is of the order of alpha/cos^2 theta. Below this it is
+// less than 1e-3, which 65,536 samples do not resolve, let alone those of a fit.
+constexpr double exact_first_order = 5e-4;
+
+bool first_order_is_exact(const LobeFrame& frame) {
+  const double cosine = frame.omega_v.z();
+  return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < exact_first_order * cosine * cosine;
+}
 
 bool usable(const Eigen::Matrix3d& start) {
   return start.allFinite() && start.determinant() > 0;
@@ -80,12 +90,21 @@ std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& fram
   return starts;
 }
 
+FitResult GaussNewtonSolver::analytic_result(const LobeFrame& frame,
+                                             FitWorkspace& workspace) const {
+  const Eigen::Matrix3d p = admissible(frame.first_order, free_entries(frame.lobe));
+  ModelValue value;
+  evaluate_model(frame, p, fine_.cosines, workspace.fine_quantiles,
+                 workspace.fine_quantiles.spread(), workspace.model, value);
+  return {frame.to_matrix(p), value.loss, 0, FitOutcome::analytic};
+}
+
 Descent GaussNewtonSolver::best_coarse_descent(const LobeFrame& frame,
                                                const std::vector<Eigen::Matrix3d>& starts,
-                                               FitWorkspace& workspace, FitResult& result,
+                                               DescentOptions options, FitWorkspace& workspace,
+                                               FitResult& result,
                                                std::vector<FitStep>* trace) const {
   const FreeEntries free = free_entries(frame.lobe);
-  DescentOptions options = coarse_.options;
   Descent best;
   best.loss = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -122,6 +141,13 @@ std::vector<Eigen::Matrix3d> GaussNewtonSolver::promising(
 
 FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                                  std::vector<FitStep>* trace) const {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto options_of = [&](const Phase& phase) {
+    DescentOptions options = phase.options;
+    options.begin = begin;
+    options.progress = request.progress;
+    return options;
+  };
   const LobeFrame frame(request.lobe);
   const FreeEntries free = free_entries(request.lobe);
   sample_target(frame, request.seed, workspace);
@@ -134,6 +160,12 @@ FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& worksp
   if (starts.empty())
     starts = own_starts(frame, request.seed, workspace);
 
+  if (request.starts.empty() && first_order_is_exact(frame)) {
+    workspace.fine_quantiles.build(workspace.target, fine_.directions, fine_.bins,
+                                   workspace.model.xi, workspace.model.bins);
+    return analytic_result(frame, workspace);
+  }
+
   FitResult result;
   double loss_to_beat = std::numeric_limits<double>::infinity();
   if (request.incumbent) {
@@ -142,12 +174,13 @@ FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& worksp
     // The incumbent settles on the coarse samples before it is compared on them.
     const Descent settled =
         minimise(frame, admissible(frame.from_matrix(result.matrix), free), free, coarse_.cosines,
-                 workspace.coarse_quantiles, coarse_.options, workspace.model, nullptr);
+                 workspace.coarse_quantiles, options_of(coarse_), workspace.model, nullptr);
     result.steps += settled.steps;
     loss_to_beat = settled.loss;
     starts = promising(frame, starts, loss_to_beat, workspace);
   }
-  const Descent best = best_coarse_descent(frame, starts, workspace, result, trace);
+  const Descent best =
+      best_coarse_descent(frame, starts, options_of(coarse_), workspace, result, trace);
   if (!(best.loss < (1 - worthwhile_gain) * loss_to_beat)) {
     if (!request.incumbent)
       result = no_result(result.steps);
@@ -155,7 +188,7 @@ FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& worksp
   }
   workspace.fine_quantiles.build(workspace.target, fine_.directions, fine_.bins, workspace.model.xi,
                                  workspace.model.bins);
-  DescentOptions options = fine_.options;
+  DescentOptions options = options_of(fine_);
   options.phase = static_cast<int>(starts.size());
   const Descent descent = minimise(frame, best.frame_matrix, free, fine_.cosines,
                                    workspace.fine_quantiles, options, workspace.model, trace);

@@ -35,8 +35,9 @@ class GaussNewtonSolver final : public Solver {
                                           const FitWorkspace& workspace) const;
 
   Descent best_coarse_descent(const LobeFrame& frame, const std::vector<Eigen::Matrix3d>& starts,
-                              FitWorkspace& workspace, FitResult& result,
+                              DescentOptions options, FitWorkspace& workspace, FitResult& result,
                               std::vector<FitStep>* trace) const;
+  FitResult analytic_result(const LobeFrame& frame, FitWorkspace& workspace) const;
   // The start of least loss, where that is not hopeless beside `loss_to_beat`; none otherwise.
   std::vector<Eigen::Matrix3d> promising(const LobeFrame& frame,
                                          const std::vector<Eigen::Matrix3d>& starts,

@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "brdf/ggx.h"
+#include "core/random.h"
 
 namespace ltc {
 namespace {
 
 constexpr std::size_t row_width = kernels::row_width;
+
+// Where bins and starts lie is decided by a subset of the target's samples.
+constexpr std::size_t subset_stride = 8;
 
 // Integral of the target's quantile function from 0 to u, for u inside cell j of the edges: the
 // cubic that has the cell's mass and moment and the edges as its slopes; at the two open ends,
@@ -69,7 +72,7 @@ TargetMoments target_moments(const TargetSamples& samples) {
   double total = 0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < samples.size; i += 8) {
+  for (std::size_t i = 0; i < samples.size; i += subset_stride) {
     const Eigen::Vector3d g(samples.gx[i], samples.gy[i], samples.gz[i]);
     const double w = samples.weight[i];
     total += w;
@@ -80,12 +83,24 @@ TargetMoments target_moments(const TargetSamples& samples) {
   return {mean, second / total - mean * mean.transpose()};
 }
 
+double target_deviation(const TargetSamples& samples, const Eigen::Vector3d& direction,
+                        double centre) {
+  double total = 0, deviation = 0;
+  for (std::size_t i = 0; i < samples.size; i += subset_stride) {
+    const double xi = direction.x() * samples.gx[i] + direction.y() * samples.gy[i] +
+                      direction.z() * samples.gz[i];
+    total += samples.weight[i];
+    deviation += samples.weight[i] * std::abs(xi - centre);
+  }
+  return deviation / total;
+}
+
 void sample_rejection_target(const LobeFrame& frame, std::size_t count, std::uint64_t seed,
                              TargetSamples& samples) {
   reserve(samples, (count + 15) / 16 * 16);
   const GgxSampler sampler(frame.lobe);
-  std::mt19937_64 generator(seed);
-  const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  Random random(seed);
+  const auto uniform = [&] { return random.uniform(); };
   const Eigen::Matrix3d to_frame = frame.rotation.transpose();
   for (std::size_t i = 0; i < samples.size; ++i) {
     const Eigen::Vector3d offset =
@@ -131,13 +146,14 @@ void TargetQuantiles::build(const TargetSamples& samples,
     xi.resize(samples.size);
     bins.resize(samples.size);
   }
-  const TargetMoments moments = target_moments(samples);
+  const Eigen::Vector3d mean = target_moments(samples).mean;
   spread_ = 0;
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const Eigen::Vector3d d = directions[k].cast<double>();
-    const double scale = std::sqrt(std::max(d.dot(moments.covariance * d), 1e-30));
-    maps_[k] = {directions[k].x(), directions[k].y(), directions[k].z(),
-                static_cast<float>(d.dot(moments.mean)), static_cast<float>(1 / scale)};
+    const double centre = d.dot(mean);
+    const double scale = std::max(target_deviation(samples, d, centre), 1e-30);
+    maps_[k] = {directions[k].x(), directions[k].y(), directions[k].z(), static_cast<float>(centre),
+                static_cast<float>(1 / scale)};
     kernels::project_and_bin(maps_[k], samples.gx.data(), samples.gy.data(), samples.gz.data(),
                              samples.size, bin_count, xi.data(), bins.data());
     std::fill(sums_.begin(), sums_.end(), 0.0f);

@@ -42,6 +42,12 @@ struct TargetMoments {
 };
 TargetMoments target_moments(const TargetSamples& samples);
 
+// Mean absolute deviation of the samples' projections on a direction from `centre`, by the same
+// subset. The tails of GGX slopes have no variance, but they have this; for their Student
+// distribution it is the scale of kernels.h.
+double target_deviation(const TargetSamples& samples, const Eigen::Vector3d& direction,
+                        double centre);
+
 // Weighted VNDF samples on a lattice (weights G2/G1): so that the lattice's noise is the only one.
 void sample_weighted_target(const LobeFrame& frame, const TargetLattice& lattice,
                             TargetSamples& samples);
@@ -62,7 +68,7 @@ class TargetQuantiles {
   std::size_t bin_count() const { return bin_count_; }
   const kernels::ProjectionMap& map(std::size_t direction) const { return maps_[direction]; }
 
-  // Standard deviation of the target's projections, averaged over the directions.
+  // Mean absolute deviation of the target's projections, averaged over the directions.
   double spread() const { return spread_; }
 
   // Mass below edge j and the integral of the quantile function up to it, j = 0 … bin_count.

@@ -4,7 +4,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
+
+#include "core/random.h"
 
 namespace ltc {
 namespace {
@@ -17,13 +18,15 @@ std::size_t rounded_up(std::size_t count) {
   return (count + 15) / 16 * 16;
 }
 
-// Point i of n: the height runs through the strata's midpoints, the azimuth by the golden ratio.
+// Point i of n: the height runs through the strata, at their midpoints where the shift is 0; the
+// azimuth steps by the golden ratio.
 struct LatticePoint {
   double azimuth, height;
 };
 LatticePoint lattice_point(std::size_t i, std::size_t n, double shift) {
   constexpr double golden = 0.61803398874989484820;
-  const double height = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+  const double offset = fraction(0.5 + std::numbers::sqrt2 * shift);
+  const double height = (static_cast<double>(i) + offset) / static_cast<double>(n);
   const double azimuth = fraction(0.5 + shift + static_cast<double>(i) * golden);
   return {2 * std::numbers::pi * azimuth, height};
 }
@@ -68,16 +71,10 @@ std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count) {
 }
 
 std::vector<Eigen::Vector3d> random_directions(std::size_t count, std::uint64_t seed) {
-  // Uniform height and azimuth (Archimedes). Spelt out: the standard distributions differ between
-  // implementations.
-  std::mt19937_64 generator(seed);
-  const auto uniform = [&] { return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53; };
+  Random random(seed);
   std::vector<Eigen::Vector3d> directions(count);
-  for (auto& direction : directions) {
-    const double z = 2 * uniform() - 1, azimuth = 2 * std::numbers::pi * uniform();
-    const double radius = std::sqrt(1 - z * z);
-    direction = {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
-  }
+  for (Eigen::Vector3d& direction : directions)
+    direction = random.direction();
   return directions;
 }
 

@@ -10,9 +10,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 
 #include "core/ordered_float.h"
+#include "core/random.h"
 #include "fit/starting_points.h"
 #include "fit/workspace.h"
 
@@ -60,7 +60,8 @@ class Descender {
         free_(free_entries(request.lobe)),
         progress_(request.progress),
         workspace_(workspace),
-        generator_(request.seed),
+        seed_(request.seed),
+        random_(request.seed),
         count_((static_cast<std::size_t>(settings.samples) + 15) / 16 * 16) {
     for (AlignedFloats* array : {&workspace.cosine_x, &workspace.cosine_y, &workspace.cosine_z,
                                  &workspace.sorted_target, &workspace.sorted_projections})
@@ -81,6 +82,7 @@ class Descender {
     Eigen::Matrix3d average = Eigen::Matrix3d::Zero();
     double average_loss = 0;
     int averaged = 0;
+    FitResult result;
     double step_size = settings_.learning_rate * settings_.step_scale;
     for (int step = 0; step < settings_.steps; ++step) {
       if (progress_ && progress_->stop_requested())
@@ -99,14 +101,13 @@ class Descender {
              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
              usable, 0});
       step_size *= settings_.step_decay;
-      if (step >= settings_.steps - settings_.averaged_steps) {
+      ++result.steps;
+      if (usable && step >= settings_.steps - settings_.averaged_steps) {
         average += w;
         average_loss += loss;
         ++averaged;
       }
     }
-    FitResult result;
-    result.steps = settings_.steps;
     if (averaged > 0)
       w = average / averaged;
     result.loss = averaged > 0 ? average_loss / averaged : std::numeric_limits<double>::quiet_NaN();
@@ -121,8 +122,6 @@ class Descender {
   }
 
  private:
-  double uniform() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
-
   Eigen::Matrix3d own_start() {
     switch (settings_.start) {
       case StartKind::identity:
@@ -132,7 +131,7 @@ class Descender {
       case StartKind::moments:
         return frame_.to_matrix(moment_start(frame_, workspace_.target));
       case StartKind::random:
-        return frame_.to_matrix(random_start(frame_, workspace_.target, generator_()));
+        return frame_.to_matrix(random_start(frame_, workspace_.target, seed_));
     }
     return Eigen::Matrix3d::Identity();
   }
@@ -151,8 +150,10 @@ class Descender {
     TargetSamples& target = workspace_.target;
     const Eigen::Matrix3d to_frame = frame_.rotation.transpose();
     for (std::size_t i = 0; i < count_; ++i) {
-      const GgxSample sample = sampler_.sample_visible(uniform(), uniform());
-      if (kind_ == TargetKind::rejection && uniform() >= sample.weight)
+      const double u_azimuth = random_.uniform();
+      const double u_height = random_.uniform();
+      const GgxSample sample = sampler_.sample_visible(u_azimuth, u_height);
+      if (kind_ == TargetKind::rejection && random_.uniform() >= sample.weight)
         continue;
       const Eigen::Vector3d g = to_frame * sample.offset;
       target.gx[i] = static_cast<float>(g.x());
@@ -164,7 +165,8 @@ class Descender {
 
   void draw_cosines() {
     for (std::size_t i = 0; i < count_; ++i) {
-      const double height = uniform(), azimuth = 2 * std::numbers::pi * uniform();
+      const double height = random_.uniform();
+      const double azimuth = 2 * std::numbers::pi * random_.uniform();
       const double radius = std::sqrt(height);
       workspace_.cosine_x[i] = static_cast<float>(radius * std::cos(azimuth));
       workspace_.cosine_y[i] = static_cast<float>(radius * std::sin(azimuth));
@@ -187,7 +189,8 @@ class Descender {
   FreeEntries free_;
   const Progress* progress_;
   FitWorkspace& workspace_;
-  std::mt19937_64 generator_;
+  std::uint64_t seed_;
+  Random random_;
   std::size_t count_;
   hwy::Sorter sorter_;
 };
@@ -225,10 +228,7 @@ Descender::LossGradient Descender::loss_and_gradient(const Eigen::Matrix3d& fram
   LossGradient result{0, Eigen::Matrix3d::Zero()};
   auto& keys = workspace_.keys;
   for (int k = 0; k < settings_.directions; ++k) {
-    const double z = 2 * uniform() - 1, azimuth = 2 * std::numbers::pi * uniform();
-    const double radius = std::sqrt(1 - z * z);
-    const Eigen::Vector3f d =
-        Eigen::Vector3d(radius * std::cos(azimuth), radius * std::sin(azimuth), z).cast<float>();
+    const Eigen::Vector3f d = random_.direction().cast<float>();
     for (std::uint32_t i = 0; i < count_; ++i)
       keys[i] = sort_key(d.x() * target.gx[i] + d.y() * target.gy[i] + d.z() * target.gz[i], i);
     sorter_(keys.data(), count_, hwy::SortAscending());

@@ -28,6 +28,7 @@ struct FitStep {
 enum class FitOutcome {
   converged,   // no gain worth another step; the matrix is the best found
   step_limit,  // the steps were spent; the matrix is the best found
+  analytic,    // the closed form is exact to more digits than samples could tell
   non_finite,  // no finite matrix was found; the matrix is NaN
 };
 

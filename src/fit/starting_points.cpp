@@ -7,14 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
+
+#include "core/random.h"
 
 namespace ltc {
 namespace {
 
-// A clamped cosine (M = I) has mean direction length 2/3 and standard deviation 1/2 along x, so a
-// column of length s goes with a standard deviation of about s/2.
-constexpr double column_per_deviation = 2.0;
+// Length of a column of M, with a third column of unit length, for a mean absolute deviation of the
+// lobe along it: equal for narrow lobes (projected slopes have mean absolute deviation 1 for M =
+// I), and 1 for the clamped cosine itself, whose deviation along x is 4/(3 pi) = 0.4244.
+double column_length(double deviation) {
+  constexpr double of_cosine = 4 / (3 * std::numbers::pi);
+  return deviation / std::max(1 - deviation * (1 - of_cosine) / of_cosine, 0.1);
+}
 
 // A column of M never starts thinner than this share of the other one.
 constexpr double thinnest_start = 0.1;
@@ -49,12 +54,15 @@ Eigen::Matrix3d moment_start(const LobeFrame& frame, const TargetSamples& target
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(across * moments.covariance *
                                                                 across);
   // Eigenvalues ascend: the last two belong to the plane across the axis.
-  const double largest = std::sqrt(std::max(spectrum.eigenvalues()[2], 1e-30));
-  const double smaller =
-      std::max(std::sqrt(std::max(spectrum.eigenvalues()[1], 0.0)), 1e-3 * largest);
+  const auto column = [&](int which) -> Eigen::Vector3d {
+    const Eigen::Vector3d along = spectrum.eigenvectors().col(which);
+    return column_length(target_deviation(target, along, along.dot(moments.mean))) * along;
+  };
   Eigen::Matrix3d m;
-  m.col(0) = column_per_deviation * largest * spectrum.eigenvectors().col(2);
-  m.col(1) = column_per_deviation * smaller * spectrum.eigenvectors().col(1);
+  m.col(0) = column(2);
+  m.col(1) = column(1);
+  // A lobe too flat for the samples to tell its thickness still needs one.
+  m.col(1) *= std::max(1.0, 1e-3 * m.col(0).norm() / std::max(m.col(1).norm(), 1e-30));
   m.col(2) = axis;
   if (m.determinant() < 0)
     m.col(1) = -m.col(1);
@@ -76,16 +84,12 @@ Eigen::Matrix3d identity_start(const LobeFrame& frame) {
 
 Eigen::Matrix3d random_start(const LobeFrame& frame, const TargetSamples& target,
                              std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  const auto uniform = [&] { return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53; };
-  const auto normal = [&] {  // Box and Muller; the library's differs between implementations
-    return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
-  };
+  Random random(seed);
   Eigen::Matrix3d p = moment_start(frame, target);
   const Eigen::RowVector3d typical = p.colwise().norm() / std::sqrt(3.0);
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
-      p(row, column) += 0.4 * normal() * typical[column];
+      p(row, column) += 0.4 * random.normal() * typical[column];
   return admissible(p, free_entries(frame.lobe));
 }
 

@@ -20,7 +20,8 @@ namespace ltc {
 // an LTC that is flat to begin with cannot tell which way to open.
 Eigen::Matrix3d first_order_start(const LobeFrame& frame);
 
-// The LTC that has the lobe's mean direction as its axis and, about it, the lobe's covariance.
+// The LTC that has the lobe's mean direction as its axis and, along the principal axes of the
+// lobe's covariance about it, the lobe's mean absolute deviations.
 Eigen::Matrix3d moment_start(const LobeFrame& frame, const TargetSamples& target);
 
 // M = I, the clamped cosine itself.

@@ -18,10 +18,6 @@
 namespace ltc {
 namespace {
 
-bool has_matrix(const FittedEntry& entry) {
-  return entry.status == Status::fitted || entry.status == Status::copied;
-}
-
 struct NoState {};
 NoState no_state() {
   return {};
@@ -30,7 +26,7 @@ NoState no_state() {
 void align_all(std::vector<FittedEntry>& entries, int threads, Progress* progress) {
   parallel_for_each<NoState>("align", entries.size(), threads, progress, no_state,
                              [&](std::size_t i, NoState&) {
-                               if (has_matrix(entries[i]))
+                               if (has_values(entries[i].status))
                                  entries[i].matrix = align(entries[i].matrix);
                              });
 }
@@ -44,7 +40,7 @@ void post_process(const Grid& grid, const std::vector<FittedEntry>& entries, Tab
     table.status[flat] = entry.status;
     table.iterations[flat] = static_cast<std::uint16_t>(
         std::min(entry.steps, static_cast<int>(std::numeric_limits<std::uint16_t>::max())));
-    if (!has_matrix(entry))
+    if (!has_values(entry.status))
       continue;
     const GgxLobe lobe = grid.lobe(grid.node(flat));
     Eigen::Matrix3d matrix = entry.matrix;

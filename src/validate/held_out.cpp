@@ -46,8 +46,8 @@ HeldOutJudge::HeldOutJudge(std::size_t samples, std::size_t directions, std::uin
 }
 
 void HeldOutJudge::set_lobe(const GgxLobe& lobe) {
-  frame_.assign(1, LobeFrame(lobe));
-  sample_weighted_target(frame_.front(), lattice_, target_);
+  frame_.emplace(lobe);
+  sample_weighted_target((*frame_), lattice_, target_);
   const std::size_t count = target_.size;
   double total = 0;
   for (std::size_t i = 0; i < count; ++i)
@@ -55,7 +55,7 @@ void HeldOutJudge::set_lobe(const GgxLobe& lobe) {
   hwy::Sorter sorter;
   spread_ = 0;
   for (std::size_t k = 0; k < directions_.size(); ++k) {
-    const Eigen::Vector3f d = (frame_.front().rotation.transpose() * directions_[k]).cast<float>();
+    const Eigen::Vector3f d = (frame_->rotation.transpose() * directions_[k]).cast<float>();
     for (std::size_t i = 0; i < count; ++i) {
       const float projection =
           d.x() * target_.gx[i] + d.y() * target_.gy[i] + d.z() * target_.gz[i];
@@ -85,7 +85,7 @@ void HeldOutJudge::set_lobe(const GgxLobe& lobe) {
 double HeldOutJudge::loss(const Eigen::Matrix3d& matrix) {
   if (!matrix.allFinite())
     return std::numeric_limits<double>::quiet_NaN();
-  const LobeFrame& frame = frame_.front();
+  const LobeFrame& frame = (*frame_);
   const Eigen::Matrix3d p = frame.from_matrix(matrix) *
                             Eigen::Vector3d(frame.lobe.alpha_x, frame.lobe.alpha_y, 1).asDiagonal();
   const std::size_t count = cosines_.size();

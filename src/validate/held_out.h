@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "brdf/ggx.h"
@@ -22,7 +23,7 @@ class HeldOutJudge {
   explicit HeldOutJudge(std::size_t samples = 16384, std::size_t directions = 64,
                         std::uint64_t seed = 20220712);
 
-  // Sets the lobe to judge against.
+  // Sets the lobe to judge against; before anything below.
   void set_lobe(const GgxLobe& lobe);
 
   // Equation (9) of Aakash et al. 2022 between the lobe and the LTC of M; NaN for a matrix that is
@@ -37,7 +38,7 @@ class HeldOutJudge {
   CosineSet cosines_;
   TargetLattice lattice_;
   std::vector<Eigen::Vector3d> directions_;
-  std::vector<LobeFrame> frame_;  // one or none
+  std::optional<LobeFrame> frame_;
   TargetSamples target_;
   AlignedFloats sorted_values_, cumulative_;  // direction-major
   AlignedVector<std::uint64_t> keys_;
