@@ -78,10 +78,6 @@ double catmull_rom(double before, double from, double to, double after, double t
 
 }  // namespace
 
-Color Color::hex(std::uint32_t rgb) {
-  return {(rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0};
-}
-
 Color series_color(std::size_t index) {
   constexpr std::uint32_t colors[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7,
                                       0xe69f00, 0x56b4e9, 0x3b3b3b};

@@ -15,7 +15,9 @@ struct Color {
   double red = 0, green = 0, blue = 0;
 
   // From 0xrrggbb.
-  static Color hex(std::uint32_t rgb);
+  static constexpr Color hex(std::uint32_t rgb) {
+    return {(rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0};
+  }
   bool operator==(const Color&) const = default;
 };
 

@@ -71,7 +71,7 @@ std::string format_value(double value, TickFormat format = TickFormat::number);
 struct ColorScale {
   Scale scale;
   const ColorMap* map = &ColorMap::viridis();  // not owned
-  std::string title;                           // quantity and unit
+  std::string title{};                         // quantity and unit
   TickFormat format = TickFormat::number;
 
   // `missing` for NaN; values outside the scale take the colour of its nearer end.

@@ -71,28 +71,30 @@ void fitted_text(Canvas& canvas, Point anchor, std::string_view line, TextStyle 
   canvas.text(anchor, line, style);
 }
 
-double words_height(const Words& words, double font_size) {
-  return heading_height(words, font_size) + caption_height(words, font_size);
+Box inside_words(Box box, const Words& words, double font_size) {
+  box.take_top(heading_height(words, font_size));
+  box.take_bottom(caption_height(words, font_size));
+  return box;
 }
 
-Box draw_words(Canvas& canvas, Box box, const Words& words, double font_size) {
+Box draw_words(Canvas& canvas, const Box& box, const Words& words, double font_size) {
   TextStyle style{
       .size = title_scale * font_size, .vertical = VerticalAnchor::middle, .bold = true};
-  Box heading = box.take_top(heading_height(words, font_size));
+  Box rest = box;
   if (!words.title.empty())
-    take_line(canvas, heading, words.title, style);
+    take_line(canvas, rest, words.title, style);
   style.size = font_size;
   style.bold = false;
   style.color = faint_ink;
   if (!words.subtitle.empty())
-    take_line(canvas, heading, words.subtitle, style);
+    take_line(canvas, rest, words.subtitle, style);
 
-  Box caption = box.take_bottom(caption_height(words, font_size));
-  caption.take_top(words.lines_below.empty() ? 0 : space_below * font_size);
+  const Box inside = inside_words(box, words, font_size);
+  rest = {box.left, inside.bottom() + space_below * font_size, box.width, box.height};
   style.color = ink;
   for (const std::string& line : words.lines_below)
-    take_line(canvas, caption, line, style);
-  return box;
+    take_line(canvas, rest, line, style);
+  return inside;
 }
 
 }  // namespace ltc::picture

@@ -24,15 +24,15 @@ void fitted_text(Canvas& canvas, Point anchor, std::string_view line, TextStyle 
 
 // What is written above and below a picture; what is empty takes no room.
 struct Words {
-  std::string title;
-  std::string subtitle;
-  std::vector<std::string> lines_below;  // captions, parameters
+  std::string title{};
+  std::string subtitle{};
+  std::vector<std::string> lines_below{};  // captions, parameters
 };
 
-// Height in pixels of the words at a font size, above and below the picture together.
-double words_height(const Words& words, double font_size);
+// What the words leave of a box.
+Box inside_words(Box box, const Words& words, double font_size);
 
-// Draws the words at the top and bottom of a box and returns what is left of it.
-Box draw_words(Canvas& canvas, Box box, const Words& words, double font_size);
+// Draws the words at the top and bottom of a box; returns what they leave of it.
+Box draw_words(Canvas& canvas, const Box& box, const Words& words, double font_size);
 
 }  // namespace ltc::picture
