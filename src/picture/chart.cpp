@@ -91,6 +91,8 @@ Parts divide(const Chart& chart, const Canvas& canvas, const Box& box, double le
   Box rest = inside_words(box, chart.words, f);
   Parts parts;
   parts.legend = take_legend(chart, canvas, rest);
+  if (!parts.legend.empty())
+    rest.take_top(legend_gap * f);
   parts.y_title = rest.take_top((chart.y.title.empty() ? 0.6 : line_spacing + tick_gap) * f);
   rest.take_bottom((line_spacing + tick_gap) * f);
   if (!chart.x.title.empty())
@@ -142,9 +144,9 @@ GuideLabel guide_label(const Chart& chart, const ChartLayout& layout, const Guid
                   .horizontal = HorizontalAnchor::right,
                   .vertical = VerticalAnchor::bottom};
   if (guide.axis == Guide::Axis::y)
-    return {{end.x - gap, end.y}, style};
+    return {{end.x - gap, end.y - gap / 2}, style};
   style.rotation_degrees = 90;
-  return {{end.x, end.y + gap}, style};
+  return {{end.x - gap / 2, end.y + gap}, style};
 }
 
 void collect_lines(const Chart& chart, const ChartLayout& layout, std::vector<Segment>& lines) {

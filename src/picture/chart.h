@@ -50,7 +50,7 @@ struct Chart {
   ChartAxis x, y;
   std::vector<Series> series{};  // drawn in this order, the last one on top
   std::vector<Guide> guides{};   // included when an axis is fitted
-  double font_size = 24;         // pixels; of ticks and labels, the title is larger
+  double font_size = 28;         // pixels; of ticks and labels, the title is larger
 };
 
 // Those points that no other beats or equals in both x and y, smaller being better, by ascending x;

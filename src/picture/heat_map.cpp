@@ -101,19 +101,25 @@ void draw_tiles(Canvas& canvas, const TiledMap& map, const TiledMapLayout& layou
   });
 }
 
-// Draws every label of an axis that does not touch the one before.
+// Draws every label of an axis, or every second, third …: as many as do not touch each other.
 void draw_labels_along(Canvas& canvas, const MapAxis& axis, const TextStyle& style,
                        const auto& anchor_of) {
-  Box previous{-1e9, -1e9, 0, 0};
-  for (std::size_t i = 0; i < axis.size; ++i) {
-    const std::string label = label_of(axis, i);
-    const Box box = canvas.text_box(anchor_of(i), label, style);
-    if (box.overlaps(previous))
-      continue;
-    canvas.text(anchor_of(i), label, style);
-    // Words need more than a hair's breadth between them.
-    previous = {box.left, box.top, box.width + 0.4 * style.size, box.height};
-  }
+  // Words beside each other need more than a hair's breadth between them.
+  const double spare = 0.4 * style.size;
+  const auto touch = [&](std::size_t stride) {
+    for (std::size_t i = stride; i < axis.size; i += stride) {
+      const Box before = canvas.text_box(anchor_of(i - stride), label_of(axis, i - stride), style);
+      const Box box = canvas.text_box(anchor_of(i), label_of(axis, i), style);
+      if (before.overlaps({box.left - spare, box.top, box.width + spare, box.height}))
+        return true;
+    }
+    return false;
+  };
+  std::size_t stride = 1;
+  while (touch(stride))
+    ++stride;
+  for (std::size_t i = 0; i < axis.size; i += stride)
+    canvas.text(anchor_of(i), label_of(axis, i), style);
 }
 
 void draw_tile_labels(Canvas& canvas, const TiledMap& map, const TiledMapLayout& layout) {
@@ -131,7 +137,10 @@ void draw_tile_labels(Canvas& canvas, const TiledMap& map, const TiledMapLayout&
   style.bold = true;
   fitted_text(canvas, {layout.map.center().x, layout.map.bottom() + gap + line_spacing * f},
               map.tile_columns.title, style, layout.map.width);
-  style.rotation_degrees = 90;
+  // A letter stands upright, words are read upwards.
+  const bool is_letter = canvas.text_width(map.tile_rows.title, style) <= f;
+  style.rotation_degrees = is_letter ? 0 : 90;
+  style.horizontal = is_letter ? HorizontalAnchor::left : HorizontalAnchor::center;
   fitted_text(canvas, {margin * f, layout.map.center().y}, map.tile_rows.title, style,
               layout.map.height);
 }

@@ -28,10 +28,10 @@ struct CellMark {
 
 struct TiledMap {
   Words words{};
-  MapAxis tile_rows;     // from the top
-  MapAxis tile_columns;  // from the left
-  MapAxis rows;          // within a tile, from the top
-  MapAxis columns;       // within a tile, from the left
+  MapAxis tile_rows{};     // from the top
+  MapAxis tile_columns{};  // from the left
+  MapAxis rows{};          // within a tile, from the top
+  MapAxis columns{};       // within a tile, from the left
   // tile_rows x tile_columns x rows x columns values, the last index running fastest (the order of
   // a table over alpha, lambda, theta, phi). NaN cells are hatched.
   std::vector<float> values{};

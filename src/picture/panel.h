@@ -14,7 +14,7 @@ namespace ltc::picture {
 
 struct Panel {
   std::string title;
-  Field field;            // stretched to the panel's square; NaN is `missing`
+  Field field;            // stretched to the panel's square; NaN is the scale's `no_value`
   std::size_t scale = 0;  // index into PanelRow::scales
 };
 

@@ -30,6 +30,7 @@ std::string with_minus_sign(const std::string& text) {
 }
 
 std::string format_number(double value) {
+  value += 0.0;  // no negative zero
   const double magnitude = std::abs(value);
   if (value == 0 || (magnitude >= 0.999e-3 && magnitude < 99999.5))
     return with_minus_sign(fmt::format("{:.6g}", value));
@@ -105,6 +106,7 @@ std::vector<double> decade_values(double first, double last, std::span<const dou
 }
 
 constexpr double one_two_five[] = {1, 2, 5};
+constexpr double one_three[] = {1, 3};
 constexpr double one[] = {1};
 constexpr double one_to_nine[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
 
@@ -116,12 +118,15 @@ std::vector<double> every(std::vector<double> values, std::size_t stride) {
 }
 
 std::vector<double> logarithmic_values(double first, double last, std::size_t at_most) {
-  std::vector<double> values = decade_values(first, last, one_two_five);
-  if (values.size() < 3)
+  if (decade_values(first, last, one_two_five).size() < 3)
     return linear_values(first, last, at_most);
-  if (values.size() <= at_most)
-    return values;
-  values = decade_values(first, last, one);
+  for (const std::span<const double> multiples :
+       {std::span<const double>(one_two_five), std::span<const double>(one_three)}) {
+    const std::vector<double> values = decade_values(first, last, multiples);
+    if (values.size() <= at_most)
+      return values;
+  }
+  const std::vector<double> values = decade_values(first, last, one);
   return every(values, (values.size() + at_most - 1) / at_most);
 }
 

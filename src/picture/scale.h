@@ -3,6 +3,7 @@
 // Scales: values to positions along an axis or a colour bar, and the ticks that label them.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,9 +51,9 @@ class Scale {
   // Undoes `position`.
   double value(double position) const;
 
-  // Ticks at round values in [first, last], ascending: steps of 1, 2 or 5, decades, or round
-  // durations. At most `at_most` (>= 2) have a label; a logarithmic scale of several decades has
-  // minor ones too.
+  // Ticks at round values in [first, last], ascending: steps of 1, 2 or 5; decades, with 2 and 5 or 3
+  // between them where there is room; round durations. At most `at_most` have a label, or 2 (3 on a
+  // symmetric scale) if that is less; a logarithmic scale of several decades has minor ones too.
   std::vector<Tick> ticks(TickFormat format, std::size_t at_most) const;
 
  private:
@@ -73,9 +74,12 @@ struct ColorScale {
   const ColorMap* map = &ColorMap::viridis();  // not owned
   std::string title{};                         // quantity and unit
   TickFormat format = TickFormat::number;
+  Color no_value = missing;  // of NaN
 
-  // `missing` for NaN; values outside the scale take the colour of its nearer end.
-  Color at(double value) const { return map->at(scale.position(value)); }
+  // Values outside the scale take the colour of its nearer end.
+  Color at(double value) const {
+    return std::isnan(value) ? no_value : map->at(scale.position(value));
+  }
 };
 
 }  // namespace ltc::picture
