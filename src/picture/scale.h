@@ -51,9 +51,9 @@ class Scale {
   // Undoes `position`.
   double value(double position) const;
 
-  // Ticks at round values in [first, last], ascending: steps of 1, 2 or 5; decades, with 2 and 5 or 3
-  // between them where there is room; round durations. At most `at_most` have a label, or 2 (3 on a
-  // symmetric scale) if that is less; a logarithmic scale of several decades has minor ones too.
+  // Ticks at round values in [first, last], ascending: steps of 1, 2 or 5; decades, with 2 and 5 or
+  // 3 between them where there is room; round durations. At most `at_most` have a label, or 2 (3 on
+  // a symmetric scale) if that is less; a logarithmic scale of several decades has minor ones too.
   std::vector<Tick> ticks(TickFormat format, std::size_t at_most) const;
 
  private:

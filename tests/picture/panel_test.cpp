@@ -39,8 +39,9 @@ TEST(PanelRow, PanelsAreEqualSquaresSideBySide) {
     EXPECT_EQ(layout.panels[i].width, layout.panels[i].height);
     EXPECT_EQ(layout.panels[i].width, layout.panels[0].width);
     EXPECT_EQ(layout.panels[i].top, layout.panels[0].top);
-    if (i > 0)
+    if (i > 0) {
       EXPECT_GT(layout.panels[i].left, layout.panels[i - 1].right());
+    }
   }
   EXPECT_LE(layout.panels[2].right(), width - 20);
 }
