@@ -40,6 +40,24 @@ std::string loss_text(const TableSummary& summary) {
                      summary.mean_loss, summary.p95_loss, summary.largest_loss);
 }
 
+// What a scene and a table to extend have spared; nothing where there was neither.
+std::string scene_text(const Table& table, const RunReport& report) {
+  std::string text;
+  if (report.needed < table.grid.size())
+    text += fmt::format("scene    {} of {} entries needed\n", report.needed, table.grid.size());
+  if (report.extends)
+    text += fmt::format("extended {} entries added, the others kept\n", report.added);
+  const GenerateReport& made = report.generate;
+  const double seconds = made.stage_seconds.empty() ? 0 : made.stage_seconds.front().second;
+  if (made.fits > 0 && made.fits < made.fits_of_whole_grid)
+    text += fmt::format(
+        "saved    about {}: {} lobes fitted instead of {}\n",
+        duration_text(seconds * static_cast<double>(made.fits_of_whole_grid - made.fits) /
+                      static_cast<double>(made.fits)),
+        made.fits, made.fits_of_whole_grid);
+  return text;
+}
+
 std::string worst_text(const Table& table, const TableSummary& summary,
                        const std::string& debug_command) {
   std::string text;
@@ -58,11 +76,14 @@ std::string summary_text(const Table& table, const RunReport& report) {
   text += fmt::format("memory   {:.0f} MB at most\n",
                       static_cast<double>(report.peak_memory_bytes) / 1e6);
   text += entries_text(summary);
+  text += scene_text(table, report);
   text += loss_text(summary);
   text += fmt::format("symmetry largest value zeroed {:.1e}, at entry {}\n",
                       report.generate.largest_zeroed,
                       entry_text(table.grid, report.generate.largest_zeroed_entry));
   text += worst_text(table, summary, report.debug_command);
+  if (report.npy_left_out)
+    text += "no NPY   it holds the paper's grid only\n";
   for (const std::filesystem::path& file : report.files)
     text += fmt::format("wrote    {}\n", file.string());
   return text;

@@ -14,7 +14,11 @@ namespace ltc::cli {
 
 struct RunReport {
   GenerateReport generate;
-  double seconds = 0;  // the whole run, files included
+  std::size_t needed = 0;     // entries that the scene needs; all without a scene
+  std::size_t added = 0;      // of these, not in the table that is extended
+  bool extends = false;       // whether one is
+  bool npy_left_out = false;  // asked for, but the grid is not the paper's
+  double seconds = 0;         // the whole run, files included
   std::size_t peak_memory_bytes = 0;
   std::vector<std::filesystem::path> files;
   std::string debug_command;  // the command that looks into an entry, up to the entry's indices

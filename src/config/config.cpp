@@ -36,6 +36,12 @@ void check_together(const Draft& draft, const config::Sources& sources) {
     throw InputError(fmt::format(
         "{}: output.hdf5, output.exr and output.npy are all false; expected at least one true",
         config::latest_source(sources, {"output.hdf5", "output.exr", "output.npy"})));
+  const FitSettings& fit = draft.config.fit;
+  if (fit.sgd.lattice_samples && fit.target == TargetKind::rejection)
+    throw InputError(
+        fmt::format("{}: fit.sgd.lattice_samples = true with fit.target = \"rejection\"; expected "
+                    "\"weighted\": rejection leaves no lattice",
+                    config::latest_source(sources, {"fit.sgd.lattice_samples", "fit.target"})));
 }
 
 }  // namespace

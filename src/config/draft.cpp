@@ -5,27 +5,24 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
+
+#include "core/angle.h"
 
 namespace ltc::config {
 namespace {
 
-double radians(double degrees) {
-  return degrees * (std::numbers::pi / 180);
-}
-
 // The degrees that `radians` turns into exactly this angle, if any; of several the shortest to
 // write.
 double degrees(double angle) {
-  const double near = angle / (std::numbers::pi / 180);
+  const double near = angle / radians_per_degree;
   // A few digits less undo the rounding of the product: 89.991 rather than 89.99100000000001.
   for (int digits = 1; digits <= 17; ++digits)
     if (const double rounded = std::stod(fmt::format("{:.{}g}", near, digits));
-        radians(rounded) == angle)
+        radians_of_degrees(rounded) == angle)
       return rounded;
   for (const double direction : {0.0, 180.0})
-    if (const double next = std::nextafter(near, direction); radians(next) == angle)
+    if (const double next = std::nextafter(near, direction); radians_of_degrees(next) == angle)
       return next;
   return near;
 }
@@ -47,8 +44,8 @@ Axis axis_of(const AxisSettings& settings) {
 }
 
 Axis axis_of_degrees(AxisSettings settings) {
-  settings.first = radians(settings.first);
-  settings.last = radians(settings.last);
+  settings.first = radians_of_degrees(settings.first);
+  settings.last = radians_of_degrees(settings.last);
   return axis_of(settings);
 }
 

@@ -6,50 +6,17 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <functional>
-#include <memory>
-#include <numeric>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "config/registry.h"
+#include "config/suggestion.h"
+#include "config/toml_file.h"
 #include "core/error.h"
 
 namespace ltc::config {
 namespace {
-
-constexpr std::size_t largest_file_bytes = 1 << 20;  // a config has a few kB; /dev/zero has no end
-
-Value value_of(const toml::node& node) {
-  if (const auto* boolean = node.as_boolean())
-    return boolean->get();
-  if (const auto* integer = node.as_integer())
-    return integer->get();
-  if (const auto* real = node.as_floating_point())
-    return real->get();
-  if (const auto* text = node.as_string())
-    return text->get();
-  return {};
-}
-
-// How many letters must change, come or go to make one word of the other.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
 
 bool is_section(std::string_view name) {
   return std::any_of(keys().begin(), keys().end(), [&](const Key& key) {
@@ -58,20 +25,14 @@ bool is_section(std::string_view name) {
   });
 }
 
-// Ready to append to a message: the key that was probably meant.
-std::string suggestion(std::string_view unknown) {
-  const auto last_word = [](std::string_view name) { return name.substr(name.rfind('.') + 1); };
-  const auto distance = [&](const Key& key) {
-    // The right word in a wrong section is near too: fit.steps for fit.sgd.steps.
-    return std::min(edit_distance(key.name, unknown),
-                    1 + edit_distance(last_word(key.name), last_word(unknown)));
-  };
-  const Key& nearest =
-      *std::min_element(keys().begin(), keys().end(),
-                        [&](const Key& a, const Key& b) { return distance(a) < distance(b); });
-  if (distance(nearest) <= std::max<std::size_t>(2, unknown.size() / 4))
-    return fmt::format("; did you mean {}?", nearest.name);
-  return "; config/default.toml lists the keys there are";
+const std::vector<std::string>& key_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Key& key : keys())
+      all.push_back(key.name);
+    return all;
+  }();
+  return names;
 }
 
 void set_key(const std::string& name, const toml::node& node, const std::string& source,
@@ -84,7 +45,8 @@ void set_key(const std::string& name, const toml::node& node, const std::string&
                                  toml_of(value), name));
   if (key == keys().end())
     throw InputError(
-        fmt::format("{}: unknown key {} = {}{}", source, name, toml_of(value), suggestion(name)));
+        fmt::format("{}: unknown key {} = {}{}", source, name, toml_of(value),
+                    suggestion(name, key_names(), "config/default.toml lists the keys there are")));
   if (!key->set(draft, value))
     throw InputError(
         fmt::format("{}: {} = {}: expected {}", source, name, toml_of(value), key->allowed));
@@ -104,41 +66,12 @@ void set_keys(const std::string& prefix, const toml::table& table, const SourceO
   }
 }
 
-std::string content_of(const std::filesystem::path& file) {
-  const auto refuse = [&](std::string_view reason) {
-    throw IoError(fmt::format("cannot read config {}: {}", file.string(), reason));
-  };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    refuse("it is a folder; expected a TOML file");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(
-      std::fopen(file.string().c_str(), "rb"), &std::fclose);
-  if (!stream)
-    refuse(std::strerror(errno));
-  std::string content(largest_file_bytes + 1, '\0');
-  content.resize(std::fread(content.data(), 1, content.size(), stream.get()));
-  if (std::ferror(stream.get()))
-    refuse(std::strerror(errno));
-  if (content.size() > largest_file_bytes)
-    throw InputError(fmt::format("{}: larger than {} bytes, which no config is", file.string(),
-                                 largest_file_bytes));
-  return content;
-}
-
 }  // namespace
 
 void read_file(const std::filesystem::path& file, Draft& draft, Sources& sources) {
-  const std::string content = content_of(file);
-  const auto at = [&](const toml::source_region& region) {
-    return fmt::format("{}:{}", file.string(), region.begin.line);
-  };
-  try {
-    set_keys(
-        "", toml::parse(content), [&](const toml::node& node) { return at(node.source()); }, draft,
-        sources);
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}: not TOML: {}", at(error.source()), error.description()));
-  }
+  set_keys(
+      "", read_toml(file, "config"),
+      [&](const toml::node& node) { return place_of(file, node.source()); }, draft, sources);
 }
 
 void read_override(std::string_view override, Draft& draft, Sources& sources) {

@@ -79,6 +79,7 @@ std::vector<Key> fit_keys() {
       key("fit.sgd.averaged_steps", [](Draft& d) { return &d.config.fit.sgd.averaged_steps; }, {1, 10'000'000}, "the last steps whose matrices are averaged, at most all"),
       key("fit.sgd.start", [](Draft& d) { return &d.config.fit.sgd.start; }, starts, "where the descent starts"),
       key("fit.sgd.scaled_variables", [](Draft& d) { return &d.config.fit.sgd.scaled_variables; }, "descend in the mirror's frame divided by the roughness, not in M itself"),
+      key("fit.sgd.lattice_samples", [](Draft& d) { return &d.config.fit.sgd.lattice_samples; }, "draw a step's samples from randomly shifted lattices, not independently; needs the weighted target"),
   };
 }
 

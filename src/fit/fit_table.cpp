@@ -67,7 +67,7 @@ std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat
 void copy_by_symmetry(const std::vector<PlannedEntry>& plan, std::vector<FittedEntry>& entries) {
   for (std::size_t flat = 0; flat < plan.size(); ++flat) {
     const std::size_t representative = plan[flat].representative;
-    if (representative == flat)
+    if (representative == flat || representative == PlannedEntry::none)
       continue;
     const FittedEntry& source = entries[representative];
     entries[flat] = {turned(source.matrix, plan[flat].turn_radians), source.loss, 0,
@@ -87,8 +87,15 @@ std::uint64_t entry_seed(std::uint64_t seed, std::size_t representative) {
 
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings, int threads,
                                    Progress* progress) {
+  return fit_table(grid, settings, std::vector<bool>(grid.size(), true), threads, progress);
+}
+
+std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
+                                   const std::vector<bool>& needed, int threads,
+                                   Progress* progress) {
   const std::unique_ptr<Solver> solver = make_solver(settings);
-  const std::vector<PlannedEntry> plan = plan_by_symmetry(grid);
+  const std::vector<PlannedEntry> whole_plan = plan_by_symmetry(grid);
+  const std::vector<PlannedEntry> plan = plan_by_symmetry(grid, needed);
   std::vector<std::size_t> to_fit;
   for (std::size_t flat = 0; flat < plan.size(); ++flat)
     if (plan[flat].representative == flat)
@@ -106,8 +113,11 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
     copy_by_symmetry(plan, results);
   };
   const auto plain_request = [&](std::size_t flat) {
-    return FitRequest{
-        grid.lobe(grid.node(flat)), entry_seed(settings.seed, flat), {}, {}, progress};
+    return FitRequest{grid.lobe(grid.node(flat)),
+                      entry_seed(settings.seed, whole_plan[flat].representative),
+                      {},
+                      {},
+                      progress};
   };
   fit_all("fit", plain_request, entries);
   const int sweeps =

@@ -22,15 +22,21 @@ struct FittedEntry {
   Status status = Status::skipped;
 };
 
-// One entry a node of `grid`, in its order. Entries that share a lobe with another are copied, and
-// turned where need be, from it. With sweeps, every fitted entry then tries its grid neighbours'
-// solutions as starts and keeps the better one; all entries of a sweep see the same state, so that
-// neither order nor the number of threads matters.
+// One entry a node of `grid`, in its order; those that are not `needed` stay skipped. Entries that
+// share a lobe with another are copied, and turned where need be, from it. With sweeps, every
+// fitted entry then tries its grid neighbours' solutions as starts and keeps the better one; all
+// entries of a sweep see the same state, so that neither order nor the number of threads matters.
 // Throws Interrupted when `progress` (which may be null) asks for a stop.
+std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
+                                   const std::vector<bool>& needed, int threads,
+                                   Progress* progress);
+
+// All of them.
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings, int threads,
                                    Progress* progress);
 
-// The seed of everything random about one entry's fit.
+// The seed of everything random about one entry's fit; `representative` is that of the whole grid's
+// plan, so that an entry is fitted alike whatever else is needed.
 std::uint64_t entry_seed(std::uint64_t seed, std::size_t representative);
 
 }  // namespace ltc

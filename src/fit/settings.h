@@ -17,13 +17,13 @@ struct GaussNewtonSettings {
   int coarse_samples = 256;    // cosine samples of the coarse phase, [64, 65536]
   int coarse_directions = 16;  // projection directions of the coarse phase, [4, 4096]
   int coarse_steps = 12;       // most steps of the coarse phase, [0, 1000]
-  int samples = 1024;          // cosine samples of the fine phase, [64, 65536]
+  int samples = 2048;          // cosine samples of the fine phase, [64, 65536]
   int directions = 32;         // projection directions of the fine phase, [4, 4096]
-  int steps = 6;               // most steps of the fine phase, [1, 1000]
+  int steps = 12;              // most steps of the fine phase, [1, 1000]
   int target_samples = 4096;   // GGX samples that the target's quantiles come from, [64, 1048576]
   // A phase ends when a step gains less than this share of the loss, [0, 1].
   double coarse_tolerance = 3e-3;
-  double tolerance = 1e-3;
+  double tolerance = 3e-4;
   int starts = 2;            // starting points tried in the coarse phase, [1, 16]
   int neighbour_sweeps = 1;  // how often an entry tries its neighbours' solutions, [0, 16]
 };
@@ -42,6 +42,9 @@ struct SgdSettings {
   // Descend in the entries of M as published (false), or in those of M expressed in the mirror's
   // frame and divided by the roughness (true), where lobes of every width have the same scale.
   bool scaled_variables = false;
+  // Draw cosine samples and the weighted target from lattices that a random shift moves every step
+  // (true), or independently as published (false). Far less noise; needs the weighted target.
+  bool lattice_samples = false;
 };
 
 struct FitSettings {

@@ -52,9 +52,10 @@ struct Variables {
 class Descender {
  public:
   Descender(const SgdSettings& settings, TargetKind kind, const FitRequest& request,
-            FitWorkspace& workspace)
+            const TargetLattice& lattice, FitWorkspace& workspace)
       : settings_(settings),
         kind_(kind),
+        lattice_(lattice),
         frame_(request.lobe),
         sampler_(request.lobe),
         free_(free_entries(request.lobe)),
@@ -70,6 +71,9 @@ class Descender {
     for (AlignedFloats* array : {&workspace.model.gx, &workspace.model.gy, &workspace.model.gz})
       if (array->size() < count_)
         array->resize(count_);
+    for (AlignedFloats* array : {&workspace.lattice.cos_azimuth, &workspace.lattice.sin_azimuth,
+                                 &workspace.lattice.height})
+      array->resize(count_);
     sample_rejection_target(frame_, count_, request.seed ^ 0x9e3779b97f4a7c15u, workspace.target);
   }
 
@@ -87,8 +91,12 @@ class Descender {
     for (int step = 0; step < settings_.steps; ++step) {
       if (progress_ && progress_->stop_requested())
         break;
-      refresh_target();
-      draw_cosines();
+      if (settings_.lattice_samples) {
+        shift_lattices();
+      } else {
+        refresh_target();
+        draw_cosines();
+      }
       const auto [loss, frame_gradient] = loss_and_gradient(variables.to_frame_direction(w));
       const Eigen::Matrix3d gradient = restricted(variables.gradient(frame_gradient));
       const Eigen::Matrix3d next = w - step_size * gradient;
@@ -163,6 +171,30 @@ class Descender {
     }
   }
 
+  // Lattices of this step: a random turn of the azimuth and a random height within the strata.
+  void shift_lattices() {
+    const double turn = 2 * std::numbers::pi * random_.uniform();
+    const auto c = static_cast<float>(std::cos(turn)), s = static_cast<float>(std::sin(turn));
+    const double height = random_.uniform();
+    const double target_height = random_.uniform();
+    TargetLattice& shifted = workspace_.lattice;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const float x = lattice_.cos_azimuth[i], y = lattice_.sin_azimuth[i];
+      shifted.cos_azimuth[i] = c * x - s * y;
+      shifted.sin_azimuth[i] = s * x + c * y;
+      const auto stratum = static_cast<double>(i);
+      shifted.height[i] =
+          static_cast<float>((stratum + target_height) / static_cast<double>(count_));
+      // The cosine set takes its strata in another order, so that the two are not the same points.
+      const double u = (static_cast<double>(count_ - 1 - i) + height) / static_cast<double>(count_);
+      const auto radius = static_cast<float>(std::sqrt(u));
+      workspace_.cosine_x[i] = radius * shifted.cos_azimuth[i];
+      workspace_.cosine_y[i] = radius * shifted.sin_azimuth[i];
+      workspace_.cosine_z[i] = static_cast<float>(std::sqrt(1 - u));
+    }
+    sample_weighted_target(frame_, shifted, workspace_.target);
+  }
+
   void draw_cosines() {
     for (std::size_t i = 0; i < count_; ++i) {
       const double height = random_.uniform();
@@ -184,6 +216,7 @@ class Descender {
 
   const SgdSettings& settings_;
   TargetKind kind_;
+  const TargetLattice& lattice_;
   LobeFrame frame_;
   GgxSampler sampler_;
   FreeEntries free_;
@@ -265,11 +298,14 @@ Descender::LossGradient Descender::loss_and_gradient(const Eigen::Matrix3d& fram
 }  // namespace
 
 SgdSolver::SgdSolver(const SgdSettings& settings, TargetKind target)
-    : settings_(settings), target_kind_(target) {}
+    : settings_(settings),
+      target_kind_(target),
+      lattice_(make_target_lattice(static_cast<std::size_t>(settings.samples))) {}
 
 FitResult SgdSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                          std::vector<FitStep>* trace) const {
-  return Descender(settings_, target_kind_, request, workspace).run(request.starts, trace);
+  return Descender(settings_, target_kind_, request, lattice_, workspace)
+      .run(request.starts, trace);
 }
 
 }  // namespace ltc

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "fit/sample_sets.h"
 #include "fit/settings.h"
 #include "fit/solver.h"
 
@@ -23,6 +24,7 @@ class SgdSolver final : public Solver {
  private:
   SgdSettings settings_;
   TargetKind target_kind_;
+  TargetLattice lattice_;
 };
 
 }  // namespace ltc

@@ -11,10 +11,16 @@
 namespace ltc {
 
 std::vector<PlannedEntry> plan_by_symmetry(const Grid& grid) {
+  return plan_by_symmetry(grid, std::vector<bool>(grid.size(), true));
+}
+
+std::vector<PlannedEntry> plan_by_symmetry(const Grid& grid, const std::vector<bool>& needed) {
   using Key = std::tuple<double, double, double, double>;
   std::map<Key, std::size_t> first_of_kind;
   std::vector<PlannedEntry> plan(grid.size());
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    if (!needed[flat])
+      continue;
     const GgxLobe lobe = grid.lobe(grid.node(flat));
     const bool isotropic = lobe.alpha_x == lobe.alpha_y;
     const bool upward = looks_upward(lobe.theta_radians);

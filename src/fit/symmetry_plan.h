@@ -12,9 +12,10 @@
 namespace ltc {
 
 // An entry is the lobe of `representative` turned about the normal by `turn_radians`. It is its own
-// representative, unturned, where it has to be fitted.
+// representative, unturned, where it has to be fitted; it has none where nobody needs it.
 struct PlannedEntry {
-  std::size_t representative = 0;
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::size_t representative = none;
   double turn_radians = 0;
 };
 
@@ -23,6 +24,10 @@ struct PlannedEntry {
 // wherever alpha_min raises both) those of all phi, turned; where alpha_min raises alpha_y those of
 // all the lambda that it raises.
 std::vector<PlannedEntry> plan_by_symmetry(const Grid& grid);
+
+// The same over the entries that are needed, one flag a node: a representative is the first needed
+// entry of its lobe, the others have none.
+std::vector<PlannedEntry> plan_by_symmetry(const Grid& grid, const std::vector<bool>& needed);
 
 // R M R^-1 with R the rotation about z: the matrix of the lobe turned by `radians`.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double radians);

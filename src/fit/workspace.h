@@ -5,6 +5,7 @@
 
 #include "core/aligned.h"
 #include "fit/quantile_model.h"
+#include "fit/sample_sets.h"
 #include "fit/solver.h"
 
 namespace ltc {
@@ -14,6 +15,7 @@ struct FitWorkspace {
   TargetQuantiles coarse_quantiles, fine_quantiles;
   ModelWorkspace model;
   // Of the stochastic descent.
+  TargetLattice lattice;
   AlignedFloats cosine_x, cosine_y, cosine_z, sorted_target, sorted_projections;
   AlignedVector<std::uint64_t> keys;
 };

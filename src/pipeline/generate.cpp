@@ -18,6 +18,13 @@
 namespace ltc {
 namespace {
 
+std::size_t representative_count(const std::vector<PlannedEntry>& plan) {
+  std::size_t count = 0;
+  for (std::size_t flat = 0; flat < plan.size(); ++flat)
+    count += plan[flat].representative == flat;
+  return count;
+}
+
 struct NoState {};
 NoState no_state() {
   return {};
@@ -54,19 +61,20 @@ void post_process(const Grid& grid, const std::vector<FittedEntry>& entries, Tab
   }
 }
 
-void integrate_albedos(const Grid& grid, int threads, Progress* progress, Table& table) {
+void integrate_albedos(const Grid& grid, const std::vector<bool>& needed, int threads,
+                       Progress* progress, Table& table) {
   const AlbedoRule rule;
-  const std::vector<PlannedEntry> plan = plan_by_symmetry(grid);
+  const std::vector<PlannedEntry> plan = plan_by_symmetry(grid, needed);
   parallel_for_each<NoState>(
       "albedo", plan.size(), threads, progress, no_state, [&](std::size_t flat, NoState&) {
-        if (plan[flat].representative != flat || table.status[flat] == Status::skipped)
+        if (plan[flat].representative != flat)
           return;
         const Albedo albedo = integrate_albedo(grid.lobe(grid.node(flat)), rule);
         table.amplitude[flat] = static_cast<float>(albedo.amplitude);
         table.fresnel[flat] = static_cast<float>(albedo.fresnel);
       });
   for (std::size_t flat = 0; flat < plan.size(); ++flat) {
-    if (table.status[flat] == Status::skipped)
+    if (plan[flat].representative == PlannedEntry::none)
       continue;
     table.amplitude[flat] = table.amplitude[plan[flat].representative];
     table.fresnel[flat] = table.fresnel[plan[flat].representative];
@@ -77,6 +85,12 @@ void integrate_albedos(const Grid& grid, int threads, Progress* progress, Table&
 
 Table generate_table(const Config& config, int threads, Progress* progress,
                      GenerateReport* report) {
+  return generate_table(config, std::vector<bool>(config.grid.size(), true), threads, progress,
+                        report);
+}
+
+Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
+                     Progress* progress, GenerateReport* report) {
   GenerateReport unread;
   GenerateReport& result = report ? *report : unread;
   auto lap = std::chrono::steady_clock::now();
@@ -93,13 +107,15 @@ Table generate_table(const Config& config, int threads, Progress* progress,
   table.generator = generator();
   table.created = platform::utc_now_iso8601();
 
-  std::vector<FittedEntry> entries = fit_table(config.grid, config.fit, threads, progress);
+  result.fits = representative_count(plan_by_symmetry(config.grid, needed));
+  result.fits_of_whole_grid = representative_count(plan_by_symmetry(config.grid));
+  std::vector<FittedEntry> entries = fit_table(config.grid, config.fit, needed, threads, progress);
   finish_stage("fit");
   align_all(entries, threads, progress);
   finish_stage("align");
   post_process(config.grid, entries, table, result);
   finish_stage("post-process");
-  integrate_albedos(config.grid, threads, progress, table);
+  integrate_albedos(config.grid, needed, threads, progress, table);
   finish_stage("albedo");
   return table;
 }

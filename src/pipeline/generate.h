@@ -16,12 +16,19 @@ namespace ltc {
 
 struct GenerateReport {
   std::vector<std::pair<std::string, double>> stage_seconds;  // in order
-  double largest_zeroed = 0;    // largest |entry| that equation (16) set to zero, unit third column
+  std::size_t fits = 0;                                       // lobes that were fitted
+  std::size_t fits_of_whole_grid = 0;  // and that would have been, were every entry needed
+  double largest_zeroed = 0;  // largest |entry| that equation (16) set to zero, unit third column
   std::size_t largest_zeroed_entry = 0;  // where
 };
 
-// Makes the table of `config` with `threads` >= 1 OpenMP threads; the same bits for any number.
-// Throws InputError for a config that cannot be met, Interrupted when progress asked for a stop.
+// Makes the entries of `config`'s table that are `needed` (one flag a node) with `threads` >= 1
+// OpenMP threads; the same bits for any number. Throws InputError for a config that cannot be met,
+// Interrupted when progress asked for a stop.
+Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
+                     Progress* progress, GenerateReport* report);
+
+// The whole table.
 Table generate_table(const Config& config, int threads, Progress* progress, GenerateReport* report);
 
 }  // namespace ltc

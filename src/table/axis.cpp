@@ -91,6 +91,15 @@ double Axis::coordinate(double value) const {
   return warped(warp, std::clamp(x, 0.0, 1.0));
 }
 
+double Axis::position(double value) const {
+  // The warp and its inverse return a node's value only to within rounding. Without the snap, a
+  // look-up at a node would give a weight of 1e-16 to a neighbour that may be skipped.
+  constexpr double rounding = 1e-9;
+  const double position = coordinate(value) * static_cast<double>(size() - 1);
+  const double node = std::round(position);
+  return std::abs(position - node) < rounding ? node : position;
+}
+
 double Axis::value(double coordinate) const {
   return first() + (last() - first()) * unwarped(warp, std::clamp(coordinate, 0.0, 1.0));
 }

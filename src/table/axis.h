@@ -36,6 +36,10 @@ struct Axis {
   double coordinate(double value) const;
   double value(double coordinate) const;
 
+  // Where a look-up finds a value, in nodes: coordinate times (size - 1), and exactly k within 1e-9
+  // of node k, so that a value at a node takes nothing from the next one. NaN for NaN.
+  double position(double value) const;
+
   bool operator==(const Axis&) const = default;
 };
 

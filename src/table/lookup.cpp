@@ -45,14 +45,9 @@ struct Bracket {
   std::array<double, 2> weights;
 };
 Bracket bracket(const Axis& axis, double value) {
-  double position = axis.coordinate(value) * static_cast<double>(axis.size() - 1);
+  const double position = axis.position(value);
   if (std::isnan(position))
     return {{0, 0}, {position, position}};
-  // The warp and its inverse return a node's value only to within rounding. Without the snap, a
-  // look-up at a node would give a weight of 1e-16 to a neighbour that may be skipped.
-  constexpr double rounding = 1e-9;
-  if (std::abs(position - std::round(position)) < rounding)
-    position = std::round(position);
   const auto lower = static_cast<std::size_t>(position);
   const std::size_t upper = std::min(lower + 1, axis.size() - 1);
   const double weight = position - static_cast<double>(lower);

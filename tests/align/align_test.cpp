@@ -18,6 +18,7 @@
 
 #include "brdf/ggx.h"
 #include "statistics.h"
+#include "support/reference.h"
 
 namespace ltc {
 namespace {
@@ -140,11 +141,7 @@ TEST(Align, IsNeverWorseThanTheSearchOnRandomMatrices) {
 // Matrices of the published table (row-major float, 9 an entry, behind an NPY header): every 97th,
 // and all that have a negative determinant. Empty where the reference is not at hand.
 std::vector<Eigen::Matrix3d> published_matrices() {
-  const char* folder = std::getenv("LTCFIT_REFERENCE_DIR");
-  const std::filesystem::path path =
-      (folder ? std::filesystem::path(folder)
-              : std::filesystem::path(LTCFIT_SOURCE_DIR) / "../shared/reference") /
-      "upstream_alpha_lambda_theta_phi.npy";
+  const auto path = test::reference_file("upstream_alpha_lambda_theta_phi.npy");
   std::ifstream file(path, std::ios::binary);
   unsigned char prefix[10] = {};
   if (!file.read(reinterpret_cast<char*>(prefix), sizeof(prefix)))

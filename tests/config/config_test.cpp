@@ -5,15 +5,16 @@
 #include <gtest/gtest.h>
 #include <toml++/toml.h>
 
-#include <functional>
 #include <numbers>
 
 #include "core/error.h"
+#include "support/refusal.h"
 #include "support/temporary_directory.h"
 
 namespace ltc {
 namespace {
 
+using test::message_of;
 using test::TemporaryDirectory;
 
 Config load(const std::vector<std::string>& overrides) {
@@ -25,23 +26,9 @@ Config load_text(std::string_view text) {
   return load_config(folder.write("config.toml", text), {});
 }
 
-// The message of the error that `action` ends with; empty if it ends well.
-template <typename Error>
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 void expect_refused(const std::string& override, const std::vector<std::string>& parts) {
-  const std::string message = message_of<InputError>([&] { load({override}); });
-  EXPECT_FALSE(message.empty()) << override << " was accepted";
-  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-  for (const std::string& part : parts)
-    EXPECT_NE(message.find(part), std::string::npos) << '"' << part << "\" is not in: " << message;
+  SCOPED_TRACE(override);
+  test::expect_one_line(message_of<InputError>([&] { load({override}); }), parts);
 }
 
 TEST(Config, DefaultsAreThePapersGrid) {

@@ -17,6 +17,7 @@
 #include "export/hdf5.h"
 #include "export/reader.h"
 #include "export/same_tables.h"
+#include "support/reference.h"
 #include "table/synthetic.h"
 
 namespace ltc {
@@ -173,9 +174,7 @@ TEST(Npy, OtherFilesAreRefusedByNameAndFault) {
 }
 
 std::filesystem::path published_table() {
-  const char* const folder = std::getenv("LTCFIT_REFERENCE_DIR");
-  return std::filesystem::path(folder ? folder : LTCFIT_SOURCE_DIR "/../shared/reference") /
-         "upstream_alpha_lambda_theta_phi.npy";
+  return test::reference_file("upstream_alpha_lambda_theta_phi.npy");
 }
 
 TEST(Npy, ThePublishedTableReadsAsThePapersGrid) {
