@@ -24,6 +24,8 @@ void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& wo
                FittedEntry& entry) {
   const FitResult result = solver.fit(request, workspace, nullptr);
   entry.steps += result.steps;
+  if (request.incumbent && result.matrix == request.incumbent->matrix)
+    return;
   if (result.outcome == FitOutcome::non_finite) {
     entry.status = Status::failed;
     entry.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
