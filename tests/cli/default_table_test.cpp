@@ -153,6 +153,18 @@ RatioSummary ratios_to(const std::vector<Eigen::Matrix3d>& reference, const Tabl
   return summarize_ratios(comparisons);
 }
 
+// The practical setting of the stochastic descent, at the same entries.
+Table fitted_by_sgd(Table table, const std::vector<std::size_t>& entries) {
+  const Config config = load_config(LTCFIT_SOURCE_DIR "/config/sgd.toml", {});
+  std::vector<bool> needed(table.grid.size());
+  for (const std::size_t flat : entries)
+    needed[flat] = true;
+  const std::vector<FittedEntry> fitted = fit_table(table.grid, config.fit, needed, 2, nullptr);
+  for (const std::size_t flat : entries)
+    table.set_stored(flat, fitted[flat].matrix / fitted[flat].matrix.col(2).norm());
+  return table;
+}
+
 void expect_near_reference(const Table& table) {
   const std::vector<std::size_t> entries = stratified_entries(table);
   ASSERT_EQ(entries.size(), 61u);
@@ -166,7 +178,10 @@ void expect_near_reference(const Table& table) {
   // Were the reference worse than what it judges, the comparison would say nothing.
   EXPECT_GT(ratios.mean, 0.995);
   const RatioSummary sgd = ratios_to(reference, fitted_by_sgd(table, entries), entries);
-  std::cout << "sgd mean " << sgd.mean << " largest " << sgd.largest << '\n';
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    std::cout << entries[i] << ' ';
+  std::cout << "sgd mean " << sgd.mean << " largest " << sgd.largest << " at "
+            << entries[sgd.largest_entry] << " p95 " << sgd.p95 << '\n';
   EXPECT_LE(sgd.mean, 1.03);
   // And the comparison sees lobes that are too wide along x.
   Table wider = table;
@@ -176,18 +191,6 @@ void expect_near_reference(const Table& table) {
     wider.set_stored(flat, matrix);
   }
   EXPECT_GT(ratios_to(reference, wider, entries).mean, 1.01);
-}
-
-// The practical setting of the stochastic descent, at the same entries.
-Table fitted_by_sgd(Table table, const std::vector<std::size_t>& entries) {
-  const Config config = load_config(LTCFIT_SOURCE_DIR "/config/sgd.toml", {});
-  std::vector<bool> needed(table.grid.size());
-  for (const std::size_t flat : entries)
-    needed[flat] = true;
-  const std::vector<FittedEntry> fitted = fit_table(table.grid, config.fit, needed, 2, nullptr);
-  for (const std::size_t flat : entries)
-    table.set_stored(flat, fitted[flat].matrix / fitted[flat].matrix.col(2).norm());
-  return table;
 }
 
 // One test, since the table takes some seconds and tests share nothing.

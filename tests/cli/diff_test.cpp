@@ -177,7 +177,12 @@ TEST(DiffBadInput, IsRefusedInOneLineAndWritesNothing) {
   expect_refused(diff(a, garbage, csv), 2, {"garbage.h5"});
   expect_refused(diff(cut, a, csv), 2, {"cut.h5"});
   expect_refused(diff(a, tables.write("a.txt", "x"), csv), 2, {"a.txt", ".h5", ".npy"});
-  expect_refused(diff(a, a, {"--csv", "none/all.csv"}), 3, {"none/all.csv"});
+  expect_refused(diff(a, a, {"--csv", "/proc/none/all.csv"}), 3, {"/proc/none"});
+  expect_refused(diff(a, a, {"--csv", (a / "all.csv").string()}), 3, {a.string()});
+  expect_refused(diff(a, a, {"--csv", tables.path().string()}), 3,
+                 {tables.path().string(), "is a folder"});
+  // Nor does a folder for the file stay where the tables turn out not to match.
+  expect_refused(diff(a, tables / "small.h5", {"--csv", "new/all.csv"}), 2, {"different shapes"});
   expect_refused({"diff", a.string(), a.string(), "--samples", "1"}, 2, {"--samples"});
   expect_refused({"diff", a.string(), a.string(), "--directions", "0"}, 2, {"--directions"});
   expect_refused({"diff", a.string(), a.string(), "--seed", "-1"}, 2, {"--seed"});

@@ -7,7 +7,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <limits>
 
 #include "fit/lobes.h"
@@ -72,20 +71,20 @@ TEST(GaussNewton, FindsAPlantedOptimumFromSeveralStarts) {
   std::uint64_t seed = 1;
   for (const GgxLobe& lobe : kPlantedLobes) {
     Planted problem(lobe, seed++);
+    const double planted_loss = problem.descend(problem.planted, 0).loss;
     const Eigen::Matrix3d starts[] = {
         first_order_start(problem.frame), moment_start(problem.frame, problem.samples),
         identity_start(problem.frame), random_start(problem.frame, problem.samples, 5)};
     for (std::size_t s = 0; s < std::size(starts); ++s) {
       const Descent descent = problem.descend(starts[s], 60);
       const double digits = matching_digits(problem.frame, descent.frame_matrix, problem.planted);
-      // Measured: 2.77 to 3.34 digits and 0.0024 to 0.0076 of the spread, from starts of -0.19 to
-      // 1.6 digits; what is missing is the difference of the two lattices.
-      std::cout << "planted " << digits << " " << descent.loss / problem.quantiles.spread()
-                << " steps " << descent.steps << " truth "
-                << problem.descend(problem.planted, 0).loss / problem.quantiles.spread() << "\n";
+      // Measured: 2.73 to 3.11 digits, from starts of -0.19 to 1.6 digits. What is missing is the
+      // difference of the two lattices, by which the planted matrix itself loses 0.003 to 0.012 of
+      // the spread: the minimum, 0.86 to 0.97 of that, lies below it.
       EXPECT_GT(digits, 2.5) << test::describe(lobe) << " start " << s;
-      EXPECT_LT(descent.loss, 0.01 * problem.quantiles.spread());
+      EXPECT_LT(descent.loss, planted_loss) << test::describe(lobe) << " start " << s;
     }
+    EXPECT_LT(planted_loss, 0.015 * problem.quantiles.spread()) << test::describe(lobe);
   }
 }
 
