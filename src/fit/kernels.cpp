@@ -228,7 +228,7 @@ void reduce_direction(const ProjectionMap& map, const float* sums, const std::in
   // them.
   float* const jacobians = scratch + 4 * bin_count;
   store_jacobians(map, sums, bin_count, jacobians);
-  V gradient[row_width / 4], hessian[9 * (row_width / 4)];
+  V gradient[row_width], hessian[9 * row_width];
   // Lanes 9 to 15 carry nothing; registers that hold only those are left out.
   const std::size_t parts = (9 + lanes - 1) / lanes;
   for (std::size_t part = 0; part < parts; ++part) {

@@ -27,7 +27,7 @@ struct Model {
 
   ModelValue operator()(const Eigen::Matrix3d& p, double smoothing) {
     ModelValue value;
-    evaluate_model(frame, p, cosines, quantiles, smoothing, workspace, value);
+    evaluate_model(frame, p, cosines, quantiles, 1, smoothing, workspace, value);
     return value;
   }
 
@@ -167,7 +167,7 @@ TEST(QuantileModel, AWorkspaceRemembersNothing) {
   used(used.away_from_minimum(), 1e-3);
   const ModelValue expected = fresh(fresh.away_from_minimum(), 1e-3);
   ModelValue value;
-  evaluate_model(fresh.frame, fresh.away_from_minimum(), fresh.cosines, fresh.quantiles, 1e-3,
+  evaluate_model(fresh.frame, fresh.away_from_minimum(), fresh.cosines, fresh.quantiles, 1, 1e-3,
                  used.workspace, value);
   EXPECT_EQ(value.loss, expected.loss);
   EXPECT_EQ(value.gradient, expected.gradient);
