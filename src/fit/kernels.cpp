@@ -162,19 +162,24 @@ void sample_target(const TargetParameters& parameters, const float* cos_azimuth,
   const V vz = hn::Set(d, parameters.view_z);
   const V sx = hn::Set(d, stretched_x / stretched_length);
   const V sy = hn::Set(d, stretched_y / stretched_length);
-  const V sz = hn::Set(d, parameters.view_z / stretched_length);
+  const float cap_z = parameters.view_z / stretched_length;
+  const V rim_depth = hn::Set(d, 1.0f + cap_z);
+  const V one_less_sz = hn::Set(d, (stretched_x * stretched_x + stretched_y * stretched_y) /
+                                       (stretched_length * (stretched_length + parameters.view_z)));
   // 1 + Lambda(v) = (1 + |v stretched| / vz) / 2, equation (5).
   const V shadow_view = hn::Set(d, 0.5f * (1.0f + stretched_length / parameters.view_z));
   const float* q = parameters.rotation;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     // A point c of the spherical cap c_z in (-sz, 1]; the microfacet normal is c + s, unstretched.
+    // At the rim, u near 1, both c_z + s_z and 1 + c_z are small: they are sums of terms of one
+    // sign, so that the tail keeps its digits.
     const V u = hn::Load(d, height + i);
-    const V drop = hn::Mul(u, hn::Add(one, sz));  // 1 - c_z
-    const V cz = hn::Sub(one, drop);
-    const V radius = hn::Sqrt(hn::Max(zero, hn::Mul(drop, hn::Sub(two, drop))));
+    const V above_rim = hn::Mul(hn::Sub(one, u), rim_depth);  // c_z + s_z
+    const V drop = hn::Mul(u, rim_depth);                     // 1 - c_z
+    const V radius = hn::Sqrt(hn::Mul(drop, hn::Add(above_rim, one_less_sz)));
     const V nx = hn::Mul(ax, hn::MulAdd(radius, hn::Load(d, cos_azimuth + i), sx));
     const V ny = hn::Mul(ay, hn::MulAdd(radius, hn::Load(d, sin_azimuth + i), sy));
-    const V nz = hn::Max(zero, hn::Add(cz, sz));
+    const V nz = above_rim;
     const V lateral = hn::MulAdd(nx, nx, hn::Mul(ny, ny));
     const V length = hn::Sqrt(hn::MulAdd(nz, nz, lateral));
     const V scale = hn::Div(one, length);
