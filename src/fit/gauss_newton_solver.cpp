@@ -30,6 +30,12 @@ constexpr double worthwhile_gain = 2e-3;
 // less than 1e-3, which 65,536 samples do not resolve, let alone those of a fit.
 constexpr double exact_first_order = 5e-4;
 
+// Of the target's lattice; the coarse and the fine cosine samples have others. It puts heights u at
+// 0.697 of their strata: the mean slope of a sharp lobe is an integral of (1 - u)^(-1/2), and there
+// alone its sum over n samples has no error of the order n^(-1/2) (a zero of Hurwitz's zeta(1/2, a)
+// at a = 0.3027). At 0.92 the outermost sample alone makes the lobe 1.6 % too wide for n = 4096.
+constexpr double target_shift = 0.8466;
+
 bool first_order_is_exact(const LobeFrame& frame) {
   const double cosine = frame.omega_v.z();
   return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < exact_first_order * cosine * cosine;
@@ -61,7 +67,8 @@ GaussNewtonSolver::Phase GaussNewtonSolver::make_phase(int samples, int directio
 GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target)
     : settings_(settings),
       target_kind_(target),
-      lattice_(make_target_lattice(static_cast<std::size_t>(settings.target_samples), 0.3)),
+      lattice_(
+          make_target_lattice(static_cast<std::size_t>(settings.target_samples), target_shift)),
       coarse_(make_phase(settings.coarse_samples, settings.coarse_directions, settings.coarse_steps,
                          0.1)),
       fine_(make_phase(settings.samples, settings.directions, settings.steps, 0.0)) {
