@@ -120,6 +120,8 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
                       progress};
   };
   fit_all("fit", plain_request, entries);
+  // Nothing that samples could tell is better than a closed form.
+  std::erase_if(to_fit, [&](std::size_t flat) { return entries[flat].status == Status::analytic; });
   const int sweeps =
       settings.solver == SolverKind::gauss_newton ? settings.gauss_newton.neighbour_sweeps : 0;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
