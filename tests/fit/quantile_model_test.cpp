@@ -20,7 +20,7 @@ namespace {
 // The default's fine phase: 1024 samples, 32 directions, 64 bins, 4096 target samples.
 struct Model {
   explicit Model(const GgxLobe& lobe) : frame(lobe) {
-    sample_weighted_target(frame, make_target_lattice(4096, 0.3), samples);
+    sample_weighted_target(frame, make_target_lattice(4096, test::kMiddleShift), samples);
     quantiles.build(samples, test::in_float(directions), 64, workspace.xi, workspace.bins);
   }
 
@@ -68,14 +68,20 @@ Vector9 row_major(const Eigen::Matrix3d& matrix) {
 TEST(QuantileModel, LossAgreesWithTheSortedLoss) {
   for (const GgxLobe& lobe : test::all_lobes()) {
     Model model(lobe);
-    for (const Eigen::Matrix3d& p :
-         {model.away_from_minimum(), moment_start(model.frame, model.samples)}) {
+    const auto at = [&](const Eigen::Matrix3d& p) {
       const double exact = model.reference(p).loss;
-      const double binned = model(p, 0.05 * exact).loss;
-      // Blocks lose what cancels inside them. Measured: -0.5 % on ordinary lobes; -6.3 % at alpha
-      // 1e-4 and 1e-6, where the bins, placed by the target's deviation, are too wide for its core.
-      EXPECT_NEAR(binned / exact, 1, 0.08) << test::describe(lobe);
-    }
+      return std::pair(model(p, 0.05 * exact).loss, exact);
+    };
+    // Blocks lose what cancels inside them. Measured: -1.0 to -0.1 % on ordinary lobes; -7.3 % at
+    // alpha 1e-4 and 1e-6, where the outer blocks hold much of the loss.
+    const auto [far, far_exact] = at(model.away_from_minimum());
+    EXPECT_NEAR(far / far_exact, 1, 0.08) << test::describe(lobe);
+    // Near the minimum much of what is left is the noise between two sets of samples, which cancels
+    // in blocks: a share of the lobe's spread, not of the loss. Measured: -0.0088 of the spread
+    // where the loss is 0.14 of it, -0.0017 where it is 0.0097.
+    const auto [near, near_exact] = at(moment_start(model.frame, model.samples));
+    EXPECT_NEAR(near, near_exact, 0.08 * near_exact + 0.003 * model.quantiles.spread())
+        << test::describe(lobe);
   }
 }
 

@@ -61,7 +61,7 @@ double first_order_share(double alpha, double theta, double phi) {
   const LobeFrame frame(lobe);
   const CosineSet cosines = make_cosine_set(4096);
   TargetSamples target;
-  sample_weighted_target(frame, make_target_lattice(4096, 0.3), target);
+  sample_weighted_target(frame, make_target_lattice(4096, test::kMiddleShift), target);
   const auto directions = fibonacci_directions(16);
   const SlicedWassersteinLoss loss(test::in_double(cosines), test::in_double(target), directions);
   const Eigen::Matrix3d p = first_order_start(frame);
@@ -73,8 +73,8 @@ double first_order_share(double alpha, double theta, double phi) {
 
 TEST(StartingPoints, FirstOrderBecomesExactAsTheRoughnessVanishes) {
   for (const double theta : {0.0, 0.5, 1.2}) {
-    // Two sets of 4096 samples of a lobe with tails as 1/r^3 are 0.028 of its width apart
-    // (measured at alpha 1e-4 for every theta): what is below that is noise.
+    // Two sets of 4096 samples of a lobe with tails as 1/r^3 are 0.029 to 0.030 of its width
+    // apart (measured at alpha 1e-4): what is below that is noise.
     constexpr double noise = 0.032;
     double previous = 1;
     for (const double alpha : {0.3, 0.03, 0.003, 1e-4}) {
