@@ -27,25 +27,27 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Adds the prior to the model at P, and returns its own value.
-double add_prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p,
-                 ModelValue& value) {
-  double penalty = 0;
+// Weight of the squared entries of column c of P - P0; see prior_weight.
+double prior_strength(const LobeFrame& frame, double spread, int column) {
   const double roughness[2] = {frame.lobe.alpha_x, frame.lobe.alpha_y};
   const double width = std::max(roughness[0] * frame.first_order.col(0).norm(),
                                 roughness[1] * frame.first_order.col(1).norm());
-  const double wide = spread / prior_spread;
-  const double strength = prior_weight * spread / (1 + wide * wide) / (width * width);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 2; ++column) {
-      const double difference = p(row, column) - frame.first_order(row, column);
-      const double weight = strength * roughness[column] * roughness[column];
-      penalty += 0.5 * weight * difference * difference;
-      value.gradient[3 * row + column] += weight * difference;
-      value.curvature(3 * row + column, 3 * row + column) += weight;
+  const double wide = spread / prior_spread, relative = roughness[column] / width;
+  return prior_weight * spread / (1 + wide * wide) * relative * relative;
+}
+
+// Adds the prior to the model at P, and returns its own value.
+double add_prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p,
+                 ModelValue& value) {
+  for (int column = 0; column < 2; ++column) {
+    const double strength = prior_strength(frame, spread, column);
+    for (int row = 0; row < 3; ++row) {
+      const int entry = 3 * row + column;
+      value.gradient[entry] += strength * (p(row, column) - frame.first_order(row, column));
+      value.curvature(entry, entry) += strength;
     }
   }
-  return penalty;
+  return prior(frame, spread, p);
 }
 
 // The damped step over the free entries. Damping is relative to each column's mean curvature, since
@@ -115,6 +117,14 @@ Vector9 flattened(const Eigen::Matrix3d& matrix) {
 }
 
 }  // namespace
+
+double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p) {
+  double penalty = 0;
+  for (int column = 0; column < 2; ++column)
+    penalty += 0.5 * prior_strength(frame, spread, column) *
+               (p.col(column) - frame.first_order.col(column)).squaredNorm();
+  return penalty;
+}
 
 Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const FreeEntries& free,
                  const CosineSet& cosines, const TargetQuantiles& target,

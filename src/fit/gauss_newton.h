@@ -30,6 +30,10 @@ struct Descent {
   bool converged = false;
 };
 
+// What the descent adds to the loss at P, for a target of this spread: a weak pull of columns 0 and
+// 1 towards the first-order P0 that decides what the samples of a sharp lobe leave open.
+double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p);
+
 // Minimises the model over the free entries of P from `start`. A weak prior (design: sharp lobes)
 // holds columns 0 and 1 near the first-order P0 where the samples say nothing. Steps that lose,
 // turn the determinant or are not finite are not taken. `trace` may be null.

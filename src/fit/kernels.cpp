@@ -123,10 +123,13 @@ void accumulate_weights(const float* xi, const std::int32_t* bins, const float* 
     const V weight = hn::Load(d, weights + i);
     hn::StoreInterleaved2(weight, hn::Mul(weight, hn::Load(d, xi + i)), d, scratch + 2 * i);
   }
+  // One pair at a time; two single values where the target has no vectors.
   const hn::CappedTag<float, 2> pair;
   for (std::size_t i = 0; i < count; ++i) {
     float* sum = sums + 2 * static_cast<std::size_t>(bins[i]);
-    hn::StoreU(hn::Add(hn::LoadU(pair, sum), hn::LoadU(pair, scratch + 2 * i)), pair, sum);
+    for (std::size_t part = 0; part < 2; part += hn::Lanes(pair))
+      hn::StoreU(hn::Add(hn::LoadU(pair, sum + part), hn::LoadU(pair, scratch + 2 * i + part)),
+                 pair, sum + part);
   }
 }
 

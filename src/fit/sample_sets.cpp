@@ -18,16 +18,21 @@ std::size_t rounded_up(std::size_t count) {
   return (count + 15) / 16 * 16;
 }
 
-// Point i of n: the height runs through the strata, at their midpoints where the shift is 0; the
-// azimuth steps by the golden ratio.
+// The mean slope of a sharp lobe is an integral of (1 - u)^(-1/2) over the heights, for cosine
+// samples as for the target's, and only here has its sum over n samples no error of the order
+// n^(-1/2) (1 - 0.697 is the zero of Hurwitz's zeta(1/2, a)). At 0.92 the outermost sample alone
+// makes the lobe 1.6 % too wide for n = 4096.
+constexpr double place_in_stratum = 0.6973;
+
+// Point i of n: the azimuth steps by the golden ratio, the height runs through n strata and stands
+// at the same place in each.
 struct LatticePoint {
   double azimuth, height;
 };
 LatticePoint lattice_point(std::size_t i, std::size_t n, double shift) {
   constexpr double golden = 0.61803398874989484820;
-  const double offset = fraction(0.5 + std::numbers::sqrt2 * shift);
-  const double height = (static_cast<double>(i) + offset) / static_cast<double>(n);
-  const double azimuth = fraction(0.5 + shift + static_cast<double>(i) * golden);
+  const double height = (static_cast<double>(i) + place_in_stratum) / static_cast<double>(n);
+  const double azimuth = fraction(shift + static_cast<double>(i) * golden);
   return {2 * std::numbers::pi * azimuth, height};
 }
 

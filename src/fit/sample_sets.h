@@ -21,8 +21,8 @@ struct CosineSet {
   AlignedFloats x, y, z;
   std::size_t size() const { return x.size(); }
 };
-// `count` (rounded up to a multiple of 16) samples of a golden-ratio lattice; `shift` moves the
-// lattice on the torus, in azimuth and height, so that sets with different shifts share no samples.
+// `count` (rounded up to a multiple of 16) samples of a golden-ratio lattice; `shift` turns the
+// lattice by that share of a circle: sets with different shifts share no samples.
 CosineSet make_cosine_set(std::size_t count, double shift = 0.0);
 
 // A rank-1 lattice on the unit square, as the VNDF sampler wants it: (cos, sin)(2 pi u1) and u2.

@@ -2,13 +2,11 @@
 // Copyright (c) 2026 the ltcfit authors
 // The default table, made once by the real program on the paper's whole grid: what it is, that its
 // files agree, and how near it comes to fits with many more samples and starts.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <iostream>
 
 #include "config/config.h"
 #include "core/parallel.h"
@@ -33,7 +31,7 @@ std::size_t count(const Table& table, Status status) {
 }
 
 void expect_summary(const std::string& out) {
-  EXPECT_NE(out.find("entries  4096: 2852 fitted, 1239 copied by symmetry, 5 analytic, 0 skipped, "
+  EXPECT_NE(out.find("entries  4096: 2851 fitted, 1239 copied by symmetry, 6 analytic, 0 skipped, "
                      "0 failed\n"),
             std::string::npos)
       << out;
@@ -67,7 +65,7 @@ void expect_readable_by_others(const fs::path& folder) {
   };
   const ProgramResult checked = check(folder / "ltc.npy");
   EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
-  EXPECT_EQ(checked.out, "0 2852 1239 5 0\n");
+  EXPECT_EQ(checked.out, "0 2851 1239 6 0\n");
   // And it sees one float that differs.
   Table other = read_npy(folder / "ltc.npy");
   other.stored[9 * 2000] = std::nextafter(other.stored[9 * 2000], 9.0f);
@@ -99,7 +97,7 @@ FitSettings reference_settings() {
   return settings;
 }
 
-// Every 47th lobe that was fitted, so that all values of all four axes occur.
+// Every 47th of the lobes that were fitted, so that all values of all four axes occur.
 std::vector<std::size_t> stratified_entries(const Table& table) {
   std::vector<std::size_t> entries;
   std::size_t fitted = 0;
@@ -171,18 +169,13 @@ void expect_near_reference(const Table& table) {
   const std::vector<Eigen::Matrix3d> reference = reference_matrices(table, entries);
   const RatioSummary ratios = ratios_to(reference, table, entries);
   EXPECT_EQ(ratios.entries, entries.size());
-  std::cout << "mean " << ratios.mean << " largest " << ratios.largest << '\n';
-  // What the project promises for the whole grid.
+  // What the project promises for the whole grid. Measured: 1.0017 and 1.025.
   EXPECT_LE(ratios.mean, 1.01);
   EXPECT_LE(ratios.largest, 1.15) << "entry " << entries[ratios.largest_entry];
   // Were the reference worse than what it judges, the comparison would say nothing.
   EXPECT_GT(ratios.mean, 0.995);
   const RatioSummary sgd = ratios_to(reference, fitted_by_sgd(table, entries), entries);
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    std::cout << entries[i] << ' ';
-  std::cout << "sgd mean " << sgd.mean << " largest " << sgd.largest << " at "
-            << entries[sgd.largest_entry] << " p95 " << sgd.p95 << '\n';
-  EXPECT_LE(sgd.mean, 1.03);
+  EXPECT_LE(sgd.mean, 1.03);  // measured: 1.004, and 1.036 at worst
   // And the comparison sees lobes that are too wide along x.
   Table wider = table;
   for (const std::size_t flat : entries) {
@@ -203,8 +196,8 @@ TEST(DefaultTable, IsWholeReadableAndNearTheReference) {
   const Table table = read_hdf5(folder / "ltc.h5");
   EXPECT_EQ(table.grid, Grid::paper(8));
   EXPECT_EQ(table.config, to_toml(Config{}));
-  EXPECT_EQ(count(table, Status::fitted), 2852u);
-  EXPECT_EQ(count(table, Status::analytic), 5u);
+  EXPECT_EQ(count(table, Status::fitted), 2851u);
+  EXPECT_EQ(count(table, Status::analytic), 6u);
   EXPECT_EQ(count(table, Status::copied), 1239u);
   EXPECT_EQ(faults_of(table), std::vector<std::string>{});
   expect_agreeing_files(table, folder.path());

@@ -6,7 +6,6 @@
 
 #include <Eigen/LU>
 #include <cstring>
-#include <iostream>
 #include <set>
 
 namespace ltc {
@@ -92,11 +91,11 @@ TEST(FitTable, EveryEntryIsFittedOrAnalyticOrCopied) {
 }
 
 TEST(FitTable, SweepsMakeNoEntryWorse) {
-  const Grid grid = Grid::paper(3);
+  const Grid grid = Grid::paper(4);
   FitSettings settings = quick_settings();
   // Fits that end early, so that there is something to improve.
   settings.gauss_newton.starts = 1;
-  settings.gauss_newton.coarse_steps = 3;
+  settings.gauss_newton.coarse_steps = 1;
   settings.gauss_newton.steps = 1;
   std::vector<FittedEntry> before = fit_table(grid, settings, 2, nullptr);
   int improved = 0;
@@ -110,8 +109,7 @@ TEST(FitTable, SweepsMakeNoEntryWorse) {
     }
     before = after;
   }
-  std::cout << "improved " << improved << "\n";
-  EXPECT_GT(improved, 0);
+  EXPECT_GT(improved, 0);  // measured: 8 of 256 by the first sweep
 }
 
 TEST(FitTable, StopsWhenAsked) {

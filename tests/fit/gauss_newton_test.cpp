@@ -102,16 +102,6 @@ TEST(GaussNewton, ScoresAWrongMatrixLow) {
             12);
 }
 
-// What the prior adds to the loss: half the squared distance of columns 0 and 1 of P from P0, each
-// weighted by the square of its share of the larger roughness; 1e-2 of the lobe's spread for lobes
-// far narrower than 1e-3, less by the square of the roughness for wider ones.
-double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p) {
-  const double largest = std::max(frame.lobe.alpha_x, frame.lobe.alpha_y);
-  const Eigen::Vector3d share(frame.lobe.alpha_x / largest, frame.lobe.alpha_y / largest, 0);
-  const double strength = 1e-2 * spread / (1 + std::pow(largest / 1e-3, 2));
-  return 0.5 * strength * ((p - frame.first_order) * share.asDiagonal()).squaredNorm();
-}
-
 TEST(GaussNewton, TakesNoStepThatLoses) {
   // Step by step, by ending the same descent one step later each time: loss and prior together
   // never rise.

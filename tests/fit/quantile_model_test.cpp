@@ -10,7 +10,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "fit/lobes.h"
 #include "fit/starting_points.h"
@@ -69,15 +68,20 @@ Vector9 row_major(const Eigen::Matrix3d& matrix) {
 TEST(QuantileModel, LossAgreesWithTheSortedLoss) {
   for (const GgxLobe& lobe : test::all_lobes()) {
     Model model(lobe);
-    for (const Eigen::Matrix3d& p :
-         {model.away_from_minimum(), moment_start(model.frame, model.samples)}) {
+    const auto at = [&](const Eigen::Matrix3d& p) {
       const double exact = model.reference(p).loss;
-      const double binned = model(p, 0.05 * exact).loss;
-      // Blocks lose what cancels inside them. Measured: -0.5 % on ordinary lobes; -6.3 % at alpha
-      // 1e-4 and 1e-6, where the bins, placed by the target's deviation, are too wide for its core.
-      std::cout << "binned " << binned / exact << " " << test::describe(lobe) << "\n";
-      EXPECT_NEAR(binned / exact, 1, 0.08) << test::describe(lobe);
-    }
+      return std::pair(model(p, 0.05 * exact).loss, exact);
+    };
+    // Blocks lose what cancels inside them. Measured: -1.0 to -0.1 % on ordinary lobes; -8.9 % at
+    // alpha 1e-4 and 1e-6, where the outer blocks hold much of the loss.
+    const auto [far, far_exact] = at(model.away_from_minimum());
+    EXPECT_NEAR(far / far_exact, 1, 0.1) << test::describe(lobe);
+    // Near the minimum much of what is left is the noise between two sets of samples, which cancels
+    // in blocks: a share of the lobe's spread, not of the loss. Measured: -0.0088 of the spread
+    // where the loss is 0.14 of it, -0.0017 where it is 0.0097.
+    const auto [near, near_exact] = at(moment_start(model.frame, model.samples));
+    EXPECT_NEAR(near, near_exact, 0.08 * near_exact + 0.003 * model.quantiles.spread())
+        << test::describe(lobe);
   }
 }
 
@@ -95,8 +99,6 @@ TEST(QuantileModel, GradientAgreesWithTheReference) {
       const double cosine = expected.dot(found) / (expected.norm() * found.norm());
       // Measured: cosines above 0.9988 but for 0.989 at alpha 1 and a grazing view; lengths within
       // 7 %, at roughness 1e-4 and less within 14 %.
-      std::cout << "gradient " << cosine << " " << found.norm() / expected.norm() << " "
-                << test::describe(lobe) << " " << column << "\n";
       EXPECT_GT(cosine, 0.95) << test::describe(lobe) << " column " << column;
       EXPECT_NEAR(found.norm() / expected.norm(), 1, 0.2)
           << test::describe(lobe) << " column " << column;

@@ -74,9 +74,9 @@ double first_order_share(double alpha, double theta, double phi) {
 
 TEST(StartingPoints, FirstOrderBecomesExactAsTheRoughnessVanishes) {
   for (const double theta : {0.0, 0.5, 1.2}) {
-    // Two sets of 4096 samples of a lobe with tails as 1/r^3 are 0.028 of its width apart
-    // (measured at alpha 1e-4 for every theta): what is below that is noise.
-    constexpr double noise = 0.032;
+    // Two sets of 4096 samples of a lobe with tails as 1/r^3 are 0.029 to 0.030 of its width
+    // apart (measured at alpha 1e-4): what is below that is noise.
+    constexpr double noise = 0.037;
     double previous = 1;
     for (const double alpha : {0.3, 0.03, 0.003, 1e-4}) {
       const double share = first_order_share(alpha, theta, 0.6);
