@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "validate/lobe_picture.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "brdf/albedo.h"
+#include "fit/lobe_frame.h"
+#include "ltc/ltsd.h"
+#include "validate/lobe_window_marks.h"
+
+namespace ltc {
+namespace {
+
+using picture::Field;
+
+constexpr double pi = std::numbers::pi;
+constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
+
+// A lobe of which windows wider than this are not worth zooming in: 26 degrees.
+constexpr double widest_zoom = 0.45;
+
+// Samples that place a window, and those that find what is thinner than a pixel.
+constexpr std::size_t window_samples = 8192;
+constexpr std::size_t lobe_samples = std::size_t{1} << 19;
+// Evaluations of a pixel, along each side.
+constexpr int pixel_points = 2;
+
+// The lobe's mass outside of a window is at most this on each of four sides: 10 % in all.
+constexpr double cut_share = 0.02;
+constexpr double window_margin = 1.15;
+
+// The golden-ratio lattice on the unit square.
+Eigen::Vector2d lattice_point(std::size_t i, std::size_t count) {
+  const double turns = (std::numbers::phi - 1) * static_cast<double>(i);
+  return {turns - std::floor(turns), (static_cast<double>(i) + 0.5) / static_cast<double>(count)};
+}
+
+struct WeightedPoint {
+  Eigen::Vector2d at;
+  double weight;
+};
+
+// The interval that leaves `cut_share` of the weight out at either end.
+std::pair<double, double> bulk(std::vector<WeightedPoint>& points, int coordinate) {
+  std::sort(points.begin(), points.end(), [&](const WeightedPoint& a, const WeightedPoint& b) {
+    return a.at[coordinate] < b.at[coordinate];
+  });
+  double total = 0, below = 0;
+  for (const WeightedPoint& point : points)
+    total += point.weight;
+  double low = points.front().at[coordinate], high = low;
+  for (const WeightedPoint& point : points) {
+    if (below <= cut_share * total)
+      low = point.at[coordinate];
+    high = point.at[coordinate];
+    below += point.weight;
+    if (below >= (1 - cut_share) * total)
+      break;
+  }
+  return {low, high};
+}
+
+struct Bounds {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+
+  void include_bulk(std::vector<WeightedPoint> points) {
+    for (int coordinate = 0; coordinate < 2; ++coordinate) {
+      const auto [first, last] = bulk(points, coordinate);
+      low[coordinate] = std::min(low[coordinate], first);
+      high[coordinate] = std::max(high[coordinate], last);
+    }
+  }
+};
+
+// A direction by its offset from the mirror direction, which keeps its digits in narrow lobes.
+struct Direction {
+  Eigen::Vector3d omega, offset;
+};
+
+// One lobe as a picture needs it.
+struct PicturedLobe {
+  std::function<double(const Direction&)> density;
+  // Sample i of `count`, and the density that such samples have at a direction.
+  std::function<Direction(std::size_t i, std::size_t count)> sample;
+  std::function<double(const Direction&)> sample_density;
+};
+
+// The direction of a point of the projection's plane, within two of its origin.
+Direction direction_at(const LobeWindow& window, const Eigen::Vector3d& mirror, double x,
+                       double y) {
+  // With r = 2 sin(a/2): sin a = r cos(a/2) and 1 - cos a = r^2/2.
+  const double r_squared = x * x + y * y;
+  const double half_cosine = std::sqrt(std::max(0.0, 1 - r_squared / 4));
+  const Eigen::Vector3d from_axis =
+      window.rotation * Eigen::Vector3d(x * half_cosine, y * half_cosine, -r_squared / 2);
+  const Eigen::Vector3d axis = window.rotation.col(2);
+  return {axis + from_axis, window.hemisphere ? (axis - mirror + from_axis).eval() : from_axis};
+}
+
+// The mean of a density over every pixel. Neither points of the pixels nor samples of the lobe
+// alone would do: the first miss ridges, the second leave the tails empty. Both together, each
+// point weighted by the density of finding it in either way (Veach and Guibas 1995, the balance
+// heuristic), have the error of the better one everywhere.
+Field mean_density(const PicturedLobe& lobe, const LobeWindow& window,
+                   const Eigen::Vector3d& mirror, std::size_t side) {
+  Field field{side, side, std::vector<float>(side * side, 0.0f)};
+  std::vector<double> sums(side * side, 0.0);
+  const double solid_angle = pixel_solid_angle(window, side);
+  const double points_per_steradian = pixel_points * pixel_points / solid_angle;
+  const auto contribution = [&](const Direction& direction) {
+    const double found =
+        points_per_steradian + static_cast<double>(lobe_samples) * lobe.sample_density(direction);
+    return lobe.density(direction) / (found * solid_angle);
+  };
+  const double step = 2 * window.half_width / static_cast<double>(side);
+  const double left = window.center_x - window.half_width,
+               top = window.center_y + window.half_width;
+  for (std::size_t row = 0; row < side; ++row)
+    for (std::size_t column = 0; column < side; ++column)
+      for (int i = 0; i < pixel_points; ++i)
+        for (int j = 0; j < pixel_points; ++j) {
+          const double x = left + step * (static_cast<double>(column) + (i + 0.5) / pixel_points);
+          const double y = top - step * (static_cast<double>(row) + (j + 0.5) / pixel_points);
+          if (x * x + y * y < (window.hemisphere ? 2 : 4))
+            sums[row * side + column] += contribution(direction_at(window, mirror, x, y));
+        }
+  for (std::size_t i = 0; i < lobe_samples; ++i) {
+    const Direction direction = lobe.sample(i, lobe_samples);
+    if (!window.contains(direction.omega))
+      continue;
+    const Eigen::Vector2d at = window.project(direction.omega);
+    const auto index = [&](double distance) {
+      return std::min(static_cast<std::size_t>(std::max(0.0, distance / step)), side - 1);
+    };
+    sums[index(top - at.y()) * side + index(at.x() - left)] += contribution(direction);
+  }
+  for (std::size_t row = 0; row < side; ++row)
+    for (std::size_t column = 0; column < side; ++column) {
+      const double x = left + step * (static_cast<double>(column) + 0.5);
+      const double y = top - step * (static_cast<double>(row) + 0.5);
+      field.values[row * side + column] = window.hemisphere && x * x + y * y > 2
+                                              ? no_value
+                                              : static_cast<float>(sums[row * side + column]);
+    }
+  return field;
+}
+
+std::vector<WeightedPoint> ggx_points(const GgxSampler& sampler, const LobeWindow& window) {
+  std::vector<WeightedPoint> points;
+  for (std::size_t i = 0; i < window_samples; ++i) {
+    const Eigen::Vector2d u = lattice_point(i, window_samples);
+    const GgxSample sample = sampler.sample_visible(u.x(), u.y());
+    if (sample.weight > 0)
+      points.push_back({window.project(sample.omega_l), sample.weight});
+  }
+  return points;
+}
+
+std::vector<WeightedPoint> ltc_points(const LinearlyTransformed& ltc, const LobeWindow& window) {
+  std::vector<WeightedPoint> points;
+  for (std::size_t i = 0; i < window_samples; ++i) {
+    const Eigen::Vector2d u = lattice_point(i, window_samples);
+    points.push_back({window.project(ltc.sample(u.y(), u.x())), 1});
+  }
+  return points;
+}
+
+bool is_drawable(const Eigen::Matrix3d& matrix) {
+  return matrix.allFinite() && matrix.determinant() != 0 && matrix.inverse().allFinite();
+}
+
+double largest_value(const Field& field) {
+  double largest = 0;
+  for (const float value : field.values)
+    if (value > largest)
+      largest = value;
+  return largest;
+}
+
+double mean_value(const Field& field) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const float value : field.values)
+    if (!std::isnan(value)) {
+      sum += value;
+      ++count;
+    }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+// The density above which all but a hundredth of what the field shows of a lobe lies.
+double bulk_density(const Field& field) {
+  std::vector<float> rising;
+  for (const float value : field.values)
+    if (value > 0)
+      rising.push_back(value);
+  std::sort(rising.begin(), rising.end());
+  double total = 0, below = 0;
+  for (const float value : rising)
+    total += value;
+  for (const float value : rising)
+    if ((below += value) > 0.01 * total)
+      return value;
+  return 0;
+}
+
+Field difference_of(const Field& ltc, const Field& ggx) {
+  Field difference = ltc;
+  for (std::size_t i = 0; i < difference.values.size(); ++i)
+    difference.values[i] -= ggx.values[i];
+  return difference;
+}
+
+// Differences are seen against the peak: those of a perfect fit, which are rounding and the noise
+// of the samples, must not fill the scale.
+picture::Scale difference_scale(const Field& difference, const picture::Scale& densities) {
+  constexpr double least_share = 0.05;
+  double largest = 0;
+  for (const float value : difference.values)
+    if (std::abs(value) > largest)
+      largest = std::abs(value);
+  const double bound = std::max(largest, least_share * densities.last());
+  if (densities.kind() == picture::ScaleKind::linear)
+    return picture::Scale::linear(-bound, bound);
+  return picture::Scale::symmetric_logarithmic(bound, bound / 50);
+}
+
+}  // namespace
+
+Eigen::Vector2d LobeWindow::project(const Eigen::Vector3d& omega) const {
+  const Eigen::Vector3d local = rotation.transpose() * omega;
+  // 2 sin(a/2)/sin a = sqrt(2/(1 + cos a)); directly behind the axis all azimuths are as good.
+  return local.head<2>() * std::sqrt(2 / std::max(1 + local.z(), 1e-12));
+}
+
+bool LobeWindow::contains(const Eigen::Vector3d& omega) const {
+  if (hemisphere)
+    return omega.z() > 0;
+  const Eigen::Vector2d at = project(omega);
+  return std::abs(at.x() - center_x) < half_width && std::abs(at.y() - center_y) < half_width;
+}
+
+LobeWindow hemisphere_window() {
+  return {Eigen::Matrix3d::Identity(), 0, 0, std::numbers::sqrt2, true};
+}
+
+LobeWindow choose_window(const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
+  LobeWindow window{LobeFrame(lobe).rotation, 0, 0, 0, false};
+  Bounds bounds;
+  bounds.include_bulk(ggx_points(GgxSampler(lobe), window));
+  if (is_drawable(matrix))
+    bounds.include_bulk(ltc_points(LinearlyTransformed(matrix), window));
+  const Eigen::Vector2d center = (bounds.low + bounds.high) / 2;
+  window.center_x = center.x();
+  window.center_y = center.y();
+  window.half_width = window_margin * (bounds.high - bounds.low).maxCoeff() / 2;
+  return window.half_width > widest_zoom ? hemisphere_window() : window;
+}
+
+double pixel_solid_angle(const LobeWindow& window, std::size_t side) {
+  const double step = 2 * window.half_width / static_cast<double>(side);
+  return step * step;
+}
+
+Field ggx_density(const GgxLobe& lobe, const LobeWindow& window, std::size_t side) {
+  const GgxSampler sampler(lobe);
+  const double amplitude = integrate_albedo(lobe, AlbedoRule()).amplitude;
+  return mean_density(
+      {[&](const Direction& d) { return sampler.brdf_cosine_at_offset(d.offset) / amplitude; },
+       [&](std::size_t i, std::size_t count) {
+         const Eigen::Vector2d u = lattice_point(i, count);
+         const GgxSample sample = sampler.sample_visible(u.x(), u.y());
+         return Direction{sample.omega_l, sample.offset};
+       },
+       [&](const Direction& d) { return sampler.vndf_density_at_offset(d.offset); }},
+      window, sampler.mirror(), side);
+}
+
+Field ltc_density(const Eigen::Matrix3d& matrix, const GgxLobe& lobe, const LobeWindow& window,
+                  std::size_t side) {
+  if (!is_drawable(matrix))
+    return {side, side, std::vector<float>(side * side, no_value)};
+  const LinearlyTransformed ltc(matrix);
+  const Eigen::Vector3d mirror = GgxSampler(lobe).mirror();
+  const auto density = [&](const Direction& d) { return ltc.density(d.omega); };
+  return mean_density({density,
+                       [&](std::size_t i, std::size_t count) {
+                         const Eigen::Vector2d u = lattice_point(i, count);
+                         const Eigen::Vector3d omega = ltc.sample(u.y(), u.x());
+                         return Direction{omega, omega - mirror};
+                       },
+                       density},
+                      window, mirror, side);
+}
+
+picture::Scale density_scale(const Field& ggx, const Field& ltc) {
+  const double peak = std::max(largest_value(ggx), largest_value(ltc));
+  if (!(peak > 0))
+    return picture::Scale::linear(0, 1);
+  if (peak < sharp_peak * mean_value(ggx))
+    return picture::Scale::linear(0, peak);
+  return picture::Scale::logarithmic(std::clamp(bulk_density(ggx), 1e-6 * peak, 0.03 * peak), peak);
+}
+
+picture::PanelRow lobe_panels(const GgxLobe& lobe, const Eigen::Matrix3d& matrix,
+                              picture::Words words, std::size_t side) {
+  const LobeWindow window = choose_window(lobe, matrix);
+  const Field ggx = ggx_density(lobe, window, side);
+  const Field ltc = ltc_density(matrix, lobe, window, side);
+  const Field difference = difference_of(ltc, ggx);
+  const picture::Scale scale = density_scale(ggx, ltc);
+  const bool logarithmic = scale.kind() == picture::ScaleKind::logarithmic;
+  picture::PanelRow row;
+  row.words = std::move(words);
+  row.words.lines_below.push_back(window_words(window));
+  row.panels = {{"GGX", ggx, 0}, {"LTC", ltc, 0}, {"LTC − GGX", difference, 1}};
+  row.scales = {{.scale = scale, .title = "density, 1/sr"},
+                {.scale = difference_scale(difference, scale),
+                 .map = &picture::ColorMap::diverging(),
+                 .title = "difference, 1/sr"}};
+  for (picture::ColorScale& colors : row.scales) {
+    if (logarithmic)
+      colors.title += " (logarithmic)";
+    colors.no_value = picture::white;
+  }
+  row.overlays = window_marks(window, lobe);
+  return row;
+}
+
+picture::Canvas render_lobe(const picture::PanelRow& panels, const picture::Chart& chart,
+                            int width) {
+  const double edge = panels.font_size;
+  const double chart_height = 22 * chart.font_size;
+  const double row_height = picture::height_for_width(panels, width - 2 * edge);
+  picture::Canvas canvas(width, static_cast<int>(std::ceil(row_height + chart_height + 3 * edge)));
+  picture::Box box = canvas.area().inset(edge);
+  picture::draw(canvas, box.take_top(row_height), panels);
+  box.take_top(edge);
+  picture::draw(canvas, box, chart);
+  return canvas;
+}
+
+}  // namespace ltc
