@@ -14,10 +14,10 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
-#include "cli/progress.h"
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/platform.h"
+#include "core/progress.h"
 #include "export/reader.h"
 #include "fit/symmetry_plan.h"
 #include "scene/coverage.h"
@@ -28,9 +28,16 @@
 namespace ltc::cli {
 namespace {
 
+// One lobe is done before a bar would be read; only the wish to stop matters.
+class StopOnly final : public Progress {
+ public:
+  void begin_stage(std::string_view, std::size_t) override { reset_done(); }
+  void end_stage() override {}
+};
+
 struct Arguments {
   ConfigArguments config;
-  std::string scene;
+  std::string scene;  // empty: the whole table
   std::string entry;  // empty: the lobe is named by its parameters
   std::optional<double> alpha_x, alpha_y, theta_degrees, phi_degrees;
   std::string solver, seed, samples;  // empty: the config's
@@ -197,7 +204,7 @@ void require_one_name(const Arguments& arguments) {
 }
 
 void fit(const Arguments& arguments) {
-  ProgressDisplay progress;
+  StopOnly progress;
   const StopOnInterrupt stop_on_interrupt(progress);
   require_one_name(arguments);
   const Config config = load(arguments);

@@ -137,7 +137,7 @@ std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix) 
 }
 
 std::string loss_text(const LobeFit& fit) {
-  return fmt::format("held out {:.4e}, {:.3g} % of the lobe's spread {:.4e}", fit.held_out_loss,
+  return fmt::format("{:.4e} held out, {:.3g} % of the lobe's spread {:.4e}", fit.held_out_loss,
                      100 * fit.held_out_loss / fit.spread, fit.spread);
 }
 
@@ -243,13 +243,15 @@ std::string trace_csv(const FitReport& report) {
 picture::Words picture_words(const FitReport& report) {
   const LobeFit& fit = report.fit;
   picture::Words words;
-  words.title =
-      report.entry ? "Entry " + entry_text(report.grid, *report.entry) : std::string("One lobe");
+  words.title = report.entry ? "Entry " + entry_text(report.grid, *report.entry)
+                             : std::string("GGX lobe and its LTC");
   words.subtitle =
       fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", fit.lobe.alpha_x,
                   fit.lobe.alpha_y, degrees(fit.lobe.theta_radians), degrees(fit.lobe.phi_radians));
+  const std::size_t steps = named_steps(report).size();
   words.lines_below = {
-      fmt::format("Loss {}; {:.4e} on the fit's own samples", loss_text(fit), fit.fitted.loss),
+      fmt::format("Loss {}; {:.4e} on the fit's own samples{}", loss_text(fit), fit.fitted.loss,
+                  steps == 0 ? "; no steps were needed" : ""),
       fmt::format("{}, {}; determinant {:.3e}, condition number {:.3e}; amplitude {:.4f}, Fresnel "
                   "{:.4f}",
                   status_word(fit.fitted.status), solver_name(report.settings.solver),
@@ -261,6 +263,7 @@ picture::Words picture_words(const FitReport& report) {
 picture::Chart loss_chart(const FitReport& report) {
   picture::Chart chart;
   chart.words.title = "Loss against steps";
+  chart.words.subtitle = "Each phase on its own samples";
   chart.x = {"step"};
   chart.y = {"sliced-Wasserstein loss", picture::ScaleKind::logarithmic};
   chart.font_size = 20;
@@ -276,10 +279,16 @@ picture::Chart loss_chart(const FitReport& report) {
            2});
     chart.series.back().points.push_back({static_cast<double>(i + 1), steps[i].step.loss});
   }
-  if (std::isfinite(report.fit.held_out_loss))
-    chart.guides = {{picture::Guide::Axis::y, report.fit.held_out_loss, "held out"}};
-  if (steps.empty())
-    chart.words.subtitle = "No steps: the closed form was taken";
+  if (!steps.empty() && std::isfinite(report.fit.held_out_loss)) {
+    const double loss = report.fit.held_out_loss;
+    chart.series.push_back(
+        {"result, held out",
+         {{1, loss}, {static_cast<double>(std::max<std::size_t>(2, steps.size())), loss}},
+         picture::ink,
+         picture::Marker::none,
+         2,
+         {8, 6}});
+  }
   return chart;
 }
 

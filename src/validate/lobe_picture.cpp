@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "brdf/albedo.h"
 #include "fit/lobe_frame.h"
@@ -27,9 +28,13 @@ constexpr double widest_zoom = 0.45;
 
 // Samples that place a window, and those that find what is thinner than a pixel.
 constexpr std::size_t window_samples = 8192;
-constexpr std::size_t lobe_samples = std::size_t{1} << 19;
+constexpr std::size_t lobe_samples = std::size_t{1} << 20;
 // Evaluations of a pixel, along each side.
 constexpr int pixel_points = 2;
+
+// Where points of a pixel differ from their mean by less than this share, averaged over the lobe,
+// the mean of the four is good to a per cent or so.
+constexpr double smooth_share = 0.15;
 
 // The lobe's mass outside of a window is at most this on each of four sides: 10 % in all.
 constexpr double cut_share = 0.02;
@@ -104,51 +109,99 @@ Direction direction_at(const LobeWindow& window, const Eigen::Vector3d& mirror, 
   return {axis + from_axis, window.hemisphere ? (axis - mirror + from_axis).eval() : from_axis};
 }
 
-// The mean of a density over every pixel. Neither points of the pixels nor samples of the lobe
-// alone would do: the first miss ridges, the second leave the tails empty. Both together, each
-// point weighted by the density of finding it in either way (Veach and Guibas 1995, the balance
-// heuristic), have the error of the better one everywhere.
-Field mean_density(const PicturedLobe& lobe, const LobeWindow& window,
-                   const Eigen::Vector3d& mirror, std::size_t side) {
-  Field field{side, side, std::vector<float>(side * side, 0.0f)};
-  std::vector<double> sums(side * side, 0.0);
-  const double solid_angle = pixel_solid_angle(window, side);
+// The pixels of a window, as squares of its projection's plane.
+struct Raster {
+  const LobeWindow& window;
+  std::size_t side;
+  double step = 2 * window.half_width / static_cast<double>(side);
+
+  double x(double column) const { return window.center_x - window.half_width + step * column; }
+  double y(double row) const { return window.center_y + window.half_width - step * row; }
+  std::size_t index(const Eigen::Vector2d& at) const {
+    const auto whole = [&](double steps) {
+      return std::min(static_cast<std::size_t>(std::max(0.0, steps)), side - 1);
+    };
+    return whole((window.center_y + window.half_width - at.y()) / step) * side +
+           whole((at.x() - window.center_x + window.half_width) / step);
+  }
+  // Whether the projection reaches this point: the horizon, or what is directly behind.
+  bool shows(double at_x, double at_y) const {
+    return at_x * at_x + at_y * at_y < (window.hemisphere ? 2 : 4);
+  }
+};
+
+// Calls use(pixel, direction) for each of the points at which a pixel is evaluated.
+template <typename Use>
+void for_each_pixel_point(const Raster& raster, const Eigen::Vector3d& mirror, const Use& use) {
+  for (std::size_t row = 0; row < raster.side; ++row)
+    for (std::size_t column = 0; column < raster.side; ++column)
+      for (int point = 0; point < pixel_points * pixel_points; ++point) {
+        const double x =
+            raster.x(static_cast<double>(column) + (point % pixel_points + 0.5) / pixel_points);
+        const double y =
+            raster.y(static_cast<double>(row) + (point / pixel_points + 0.5) / pixel_points);
+        if (raster.shows(x, y))
+          use(row * raster.side + column, direction_at(raster.window, mirror, x, y));
+      }
+}
+
+// Pixel means by the points of the pixels alone; none where those of a pixel differ too much to
+// stand for it.
+std::optional<std::vector<double>> evaluated_means(const PicturedLobe& lobe, const Raster& raster,
+                                                   const Eigen::Vector3d& mirror) {
+  constexpr int points = pixel_points * pixel_points;
+  std::vector<double> values, means(raster.side * raster.side, 0.0);
+  std::vector<std::size_t> pixels;
+  for_each_pixel_point(raster, mirror, [&](std::size_t pixel, const Direction& direction) {
+    values.push_back(lobe.density(direction));
+    pixels.push_back(pixel);
+    means[pixel] += values.back() / points;
+  });
+  double deviation = 0, sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    deviation += std::abs(values[i] - means[pixels[i]]);
+    sum += values[i];
+  }
+  if (deviation > smooth_share * sum || sum == 0)
+    return std::nullopt;
+  return means;
+}
+
+// The same for lobes with ridges thinner than a pixel. Neither points of the pixels nor samples of
+// the lobe alone would do: the first miss ridges, the second leave the tails empty. Both together,
+// each point weighted by the density of finding it in either way (Veach and Guibas 1995, the
+// balance heuristic), have about the error of the better one everywhere.
+std::vector<double> sampled_means(const PicturedLobe& lobe, const Raster& raster,
+                                  const Eigen::Vector3d& mirror) {
+  std::vector<double> means(raster.side * raster.side, 0.0);
+  const double solid_angle = raster.step * raster.step;
   const double points_per_steradian = pixel_points * pixel_points / solid_angle;
-  const auto contribution = [&](const Direction& direction) {
+  const auto add = [&](std::size_t pixel, const Direction& direction) {
     const double found =
         points_per_steradian + static_cast<double>(lobe_samples) * lobe.sample_density(direction);
-    return lobe.density(direction) / (found * solid_angle);
+    means[pixel] += lobe.density(direction) / (found * solid_angle);
   };
-  const double step = 2 * window.half_width / static_cast<double>(side);
-  const double left = window.center_x - window.half_width,
-               top = window.center_y + window.half_width;
-  for (std::size_t row = 0; row < side; ++row)
-    for (std::size_t column = 0; column < side; ++column)
-      for (int i = 0; i < pixel_points; ++i)
-        for (int j = 0; j < pixel_points; ++j) {
-          const double x = left + step * (static_cast<double>(column) + (i + 0.5) / pixel_points);
-          const double y = top - step * (static_cast<double>(row) + (j + 0.5) / pixel_points);
-          if (x * x + y * y < (window.hemisphere ? 2 : 4))
-            sums[row * side + column] += contribution(direction_at(window, mirror, x, y));
-        }
+  for_each_pixel_point(raster, mirror, add);
   for (std::size_t i = 0; i < lobe_samples; ++i) {
     const Direction direction = lobe.sample(i, lobe_samples);
-    if (!window.contains(direction.omega))
-      continue;
-    const Eigen::Vector2d at = window.project(direction.omega);
-    const auto index = [&](double distance) {
-      return std::min(static_cast<std::size_t>(std::max(0.0, distance / step)), side - 1);
-    };
-    sums[index(top - at.y()) * side + index(at.x() - left)] += contribution(direction);
+    if (raster.window.contains(direction.omega))
+      add(raster.index(raster.window.project(direction.omega)), direction);
   }
-  for (std::size_t row = 0; row < side; ++row)
-    for (std::size_t column = 0; column < side; ++column) {
-      const double x = left + step * (static_cast<double>(column) + 0.5);
-      const double y = top - step * (static_cast<double>(row) + 0.5);
-      field.values[row * side + column] = window.hemisphere && x * x + y * y > 2
-                                              ? no_value
-                                              : static_cast<float>(sums[row * side + column]);
-    }
+  return means;
+}
+
+Field mean_density(const PicturedLobe& lobe, const LobeWindow& window,
+                   const Eigen::Vector3d& mirror, std::size_t side) {
+  const Raster raster{window, side};
+  std::optional<std::vector<double>> means = evaluated_means(lobe, raster, mirror);
+  if (!means)
+    means = sampled_means(lobe, raster, mirror);
+  Field field{side, side, {}};
+  for (std::size_t pixel = 0; pixel < means->size(); ++pixel) {
+    const bool shown = raster.shows(raster.x(static_cast<double>(pixel % side) + 0.5),
+                                    raster.y(static_cast<double>(pixel / side) + 0.5));
+    field.values.push_back(shown ? static_cast<float>((*means)[pixel]) : no_value);
+  }
   return field;
 }
 
@@ -208,7 +261,7 @@ double bulk_density(const Field& field) {
   for (const float value : rising)
     if ((below += value) > 0.01 * total)
       return value;
-  return 0;
+  return std::numeric_limits<double>::infinity();
 }
 
 Field difference_of(const Field& ltc, const Field& ggx) {
@@ -306,7 +359,8 @@ picture::Scale density_scale(const Field& ggx, const Field& ltc) {
     return picture::Scale::linear(0, 1);
   if (peak < sharp_peak * mean_value(ggx))
     return picture::Scale::linear(0, peak);
-  return picture::Scale::logarithmic(std::clamp(bulk_density(ggx), 1e-6 * peak, 0.03 * peak), peak);
+  const double bulk = std::min(bulk_density(ggx), bulk_density(ltc));
+  return picture::Scale::logarithmic(std::clamp(bulk, 1e-5 * peak, 0.03 * peak), peak);
 }
 
 picture::PanelRow lobe_panels(const GgxLobe& lobe, const Eigen::Matrix3d& matrix,
@@ -336,6 +390,8 @@ picture::PanelRow lobe_panels(const GgxLobe& lobe, const Eigen::Matrix3d& matrix
 
 picture::Canvas render_lobe(const picture::PanelRow& panels, const picture::Chart& chart,
                             int width) {
+  if (chart.series.empty())
+    return picture::render(panels, width);
   const double edge = panels.font_size;
   const double chart_height = 22 * chart.font_size;
   const double row_height = picture::height_for_width(panels, width - 2 * edge);

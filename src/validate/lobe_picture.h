@@ -57,7 +57,7 @@ picture::Scale density_scale(const picture::Field& ggx, const picture::Field& lt
 picture::PanelRow lobe_panels(const GgxLobe& lobe, const Eigen::Matrix3d& matrix,
                               picture::Words words, std::size_t side = 256);
 
-// The panels, and a chart below them.
+// The panels, and a chart below them if it has a series.
 picture::Canvas render_lobe(const picture::PanelRow& panels, const picture::Chart& chart,
                             int width = 1600);
 

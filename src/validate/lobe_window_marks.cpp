@@ -37,18 +37,36 @@ picture::Overlay ring(const LobeWindow& window, double theta_degrees) {
   return overlay;
 }
 
-// A cross with an open middle.
-void add_cross(const LobeWindow& window, const Eigen::Vector3d& omega, const std::string& label,
+// A cross with an open middle, light on dark so that it shows on every colour.
+void add_cross(const LobeWindow& window, const Eigen::Vector3d& omega,
                std::vector<picture::Overlay>& marks) {
   const Eigen::Vector2d at = window.project(omega);
   const picture::Point center = in_panel(window, at.x(), at.y());
-  constexpr double inner = 0.012, outer = 0.04;
+  constexpr double inner = 0.015, outer = 0.045;
   const std::array<picture::Point, 4> arms = {{{0, -1}, {0, 1}, {-1, 0}, {1, 0}}};
-  for (const picture::Point& arm : arms)
-    marks.push_back({{{center.x + inner * arm.x, center.y + inner * arm.y},
-                      {center.x + outer * arm.x, center.y + outer * arm.y}},
-                     mark_stroke});
-  marks.back().label = label;
+  for (const picture::Stroke& stroke :
+       {picture::Stroke{picture::ink, 4}, picture::Stroke{picture::white, 2}})
+    for (const picture::Point& arm : arms)
+      marks.push_back({{{center.x + inner * arm.x, center.y + inner * arm.y},
+                        {center.x + outer * arm.x, center.y + outer * arm.y}},
+                       stroke});
+}
+
+// The horizon, where it comes near enough to a zoomed window to be seen.
+void add_horizon(const LobeWindow& window, const Eigen::Vector3d& mirror,
+                 std::vector<picture::Overlay>& marks) {
+  picture::Overlay horizon{{}, mark_stroke};
+  bool seen = false;
+  const double azimuth = std::atan2(mirror.y(), mirror.x());
+  for (int i = -900; i <= 900; ++i) {
+    const double angle = azimuth + i / 10.0 / degrees_per_radian;
+    const Eigen::Vector3d omega(std::cos(angle), std::sin(angle), 0);
+    const Eigen::Vector2d at = window.project(omega);
+    horizon.points.push_back(in_panel(window, at.x(), at.y()));
+    seen |= window.contains(omega);
+  }
+  if (seen)
+    marks.push_back(horizon);
 }
 
 // Degrees from the mirror direction along the lower and the left edge.
@@ -83,20 +101,21 @@ std::vector<picture::Overlay> window_marks(const LobeWindow& window, const GgxLo
   if (window.hemisphere) {
     for (const double theta_degrees : {30.0, 60.0, 90.0})
       marks.push_back(ring(window, theta_degrees));
-    add_cross(window, sampler.mirror(), "mirror", marks);
+
   } else {
     add_edge_ticks(window, marks);
-    add_cross(window, sampler.mirror(), "", marks);
+    add_horizon(window, sampler.mirror(), marks);
   }
+  add_cross(window, sampler.mirror(), marks);
   return marks;
 }
 
 std::string window_words(const LobeWindow& window) {
   if (window.hemisphere)
-    return "Hemisphere from above, x to the right, y up, rings at elevations from the normal; "
-           "Lambert's equal-area projection";
+    return "Hemisphere from above, x to the right, y up, rings at angles from the normal, cross at "
+           "the mirror direction; Lambert's equal-area projection";
   return fmt::format(
-      "Zoomed to {:.3g}° about the mirror direction (cross), degrees from it along the edges; "
+      "Zoomed to a window of {:.3g}°, degrees from the mirror direction (cross) along x and y; "
       "Lambert's equal-area projection",
       2 * window.half_width * degrees_per_radian);
 }
