@@ -130,13 +130,9 @@ Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const
       matrix.col(1) = -matrix.col(1);
     return matrix;
   }
-  const std::array<std::pair<std::string_view, StartKind>, 4> kinds = {
-      {{"first-order", StartKind::first_order},
-       {"moments", StartKind::moments},
-       {"identity", StartKind::identity},
-       {"random", StartKind::random}}};
-  for (const auto& [name, kind] : kinds)
-    if (text == name)
+  for (const StartKind kind :
+       {StartKind::first_order, StartKind::moments, StartKind::identity, StartKind::random})
+    if (text == start_name(kind))
       return starting_matrix(kind, lobe, seed);
   throw InputError(
       fmt::format("--start {}: expected first-order, moments, identity, random or from=TABLE.h5",
@@ -249,6 +245,12 @@ void add_lobe_options(CLI::App& app, Arguments& arguments) {
 void add_fit_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "How to fit";
   app.add_option("--solver", arguments.solver, "gauss-newton or sgd [fit.solver]")
+      ->check([](const std::string& name) {
+        return std::string(name == "gauss-newton" || name == "sgd"
+                               ? ""
+                               : shell_quoted(name) +
+                                     " is not allowed; expected gauss-newton or sgd");
+      })
       ->option_text("NAME")
       ->group(group);
   app.add_option("--seed", arguments.seed, "seed of everything random [fit.seed]")

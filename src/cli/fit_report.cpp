@@ -43,7 +43,9 @@ std::string phase_name(const FitReport& report, const WatchedFit& fit, const Fit
     return sweep + "fine";
   if (fit.sweep > 0)
     return sweep + "coarse";
-  return "coarse " + (report.start.empty() ? own_start_name(step.start) : report.start);
+  if (report.start.empty())
+    return "coarse " + own_start_name(step.start);
+  return "coarse " + (report.start.starts_with("from=") ? "from table" : report.start);
 }
 
 std::vector<NamedStep> named_steps(const FitReport& report) {
@@ -93,7 +95,7 @@ std::string start_text(const FitReport& report) {
   if (!report.start.empty())
     return report.start;
   if (report.settings.solver == SolverKind::sgd)
-    return "fit.sgd.start";
+    return std::string(start_name(report.settings.sgd.start));
   std::string text;
   for (int start = 0; start < report.settings.gauss_newton.starts; ++start)
     text += (text.empty() ? "" : ", ") + own_start_name(start);
@@ -167,6 +169,20 @@ Json json_of(const FitReport& report, const std::vector<NamedStep>& steps) {
 }
 
 }  // namespace
+
+std::string_view start_name(StartKind kind) {
+  switch (kind) {
+    case StartKind::first_order:
+      return "first-order";
+    case StartKind::moments:
+      return "moments";
+    case StartKind::identity:
+      return "identity";
+    case StartKind::random:
+      return "random";
+  }
+  return "unknown";
+}
 
 std::string report_text(const FitReport& report) {
   const LobeFit& fit = report.fit;

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fit/gradient_check.h"
@@ -12,6 +13,9 @@
 #include "pipeline/fit_one.h"
 
 namespace ltc::cli {
+
+// "first-order", "moments", "identity", "random", as in configs.
+std::string_view start_name(StartKind kind);
 
 struct FitReport {
   LobeFit fit;
