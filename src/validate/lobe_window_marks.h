@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "validate/lobe_picture.h"
+#include "picture/panel.h"
+#include "validate/lobe_density.h"
 
 namespace ltc {
 
