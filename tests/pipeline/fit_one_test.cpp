@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/error.h"
 #include "fit/lobes.h"
@@ -52,17 +53,18 @@ void expect_same_entry(const Table& table, std::size_t flat, const LobeFit& fit)
   EXPECT_EQ(static_cast<int>(table.iterations[flat]), fit.fitted.steps);
 }
 
-TEST(FitOne, EveryEntryOfASmallTableBitForBit) {
-  for (const int sweeps : {0, 1, 3}) {
-    for (const TargetKind target : {TargetKind::weighted, TargetKind::rejection}) {
-      Config config = small_config({3, 4, 3, 3}, sweeps);
-      config.fit.target = target;
-      config.storage = Storage::mirror_frame;
-      const Table table = generate_table(config, 2, nullptr, nullptr);
-      const std::vector<bool> all(config.grid.size(), true);
-      for (std::size_t flat = 0; flat < config.grid.size(); ++flat)
-        expect_same_entry(table, flat, fit_table_entry(config, all, flat, 1, nullptr));
-    }
+TEST(FitOne, EntriesOfASmallTableBitForBit) {
+  for (const auto& [sweeps, target] :
+       {std::pair{0, TargetKind::weighted}, std::pair{1, TargetKind::rejection},
+        std::pair{3, TargetKind::weighted}}) {
+    Config config = small_config({3, 4, 3, 3}, sweeps);
+    config.fit.target = target;
+    config.storage = Storage::mirror_frame;
+    const Table table = generate_table(config, 2, nullptr, nullptr);
+    const std::vector<bool> all(config.grid.size(), true);
+    // Of the 108 entries every fifth, in turn of all indices.
+    for (std::size_t flat = 0; flat < config.grid.size(); flat += 5)
+      expect_same_entry(table, flat, fit_table_entry(config, all, flat, 1, nullptr));
   }
 }
 
@@ -72,12 +74,12 @@ TEST(FitOne, SampledEntriesOfThePapersGridBitForBit) {
   const std::vector<bool> all(config.grid.size(), true);
   std::size_t copies = 0;
   // 131 shares no factor with 4096: the sample meets all indices of every axis.
-  for (std::size_t i = 0; i < 40; ++i) {
+  for (std::size_t i = 0; i < 24; ++i) {
     const std::size_t flat = 131 * i * 3 % config.grid.size();
     expect_same_entry(table, flat, fit_table_entry(config, all, flat, 1, nullptr));
     copies += table.status[flat] == Status::copied;
   }
-  EXPECT_GE(copies, 5u);
+  EXPECT_GE(copies, 3u);
 }
 
 TEST(FitOne, EntriesOfAPartialTableBitForBit) {
@@ -87,7 +89,7 @@ TEST(FitOne, EntriesOfAPartialTableBitForBit) {
   for (std::size_t flat = 0; flat < needed.size(); ++flat)
     needed[flat] = flat % 5 != 0 && flat % 7 != 2;
   const Table table = generate_table(config, needed, 2, nullptr, nullptr);
-  for (std::size_t flat = 1; flat < needed.size(); flat += 3)
+  for (std::size_t flat = 1; flat < needed.size(); flat += 11)
     if (needed[flat])
       expect_same_entry(table, flat, fit_table_entry(config, needed, flat, 1, nullptr));
     else
@@ -101,13 +103,13 @@ TEST(FitOne, SweepsMatter) {
   const Config config = small_config({3, 4, 3, 3}, 1);
   const Table table = generate_table(config, 2, nullptr, nullptr);
   std::size_t different = 0;
-  for (std::size_t flat = 0; flat < config.grid.size(); ++flat) {
+  for (std::size_t flat = 0; flat < config.grid.size(); flat += 5) {
     std::vector<bool> alone(config.grid.size());
     alone[flat] = true;
     different +=
         fit_table_entry(config, alone, flat, 1, nullptr).finished.stored != table.stored_at(flat);
   }
-  EXPECT_GT(different, config.grid.size() / 10);
+  EXPECT_GT(different, 2u);
 }
 
 TEST(FitOne, FitsNoMoreThanTheNeighbourhood) {
