@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <memory>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/entry_text.h"
@@ -50,10 +51,22 @@ void write_csv(const std::string& path, const Grid& grid,
   });
 }
 
+// The folder of the CSV file, created if need be: better now than after the comparison.
+std::optional<OutputFolder> csv_folder(const std::filesystem::path& csv) {
+  if (csv.empty())
+    return std::nullopt;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(csv, ignored))
+    throw IoError(fmt::format("cannot write {}: it is a folder", csv.string()));
+  return std::optional<OutputFolder>(std::in_place,
+                                     csv.has_parent_path() ? csv.parent_path() : ".");
+}
+
 void diff(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
   const Table a = read_table(arguments.a), b = read_table(arguments.b);
+  const std::optional<OutputFolder> folder = csv_folder(arguments.csv);
   const std::vector<EntryComparison> entries =
       compare_tables(a, b, arguments.settings, arguments.threads, &progress);
   std::string text = fmt::format(
@@ -92,6 +105,7 @@ Action declare_diff(CLI::App& app) {
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   app.add_option("--seed", arguments->settings.seed, "seed of the held-out sets")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--csv", arguments->csv, "write every entry's losses to this file");
   add_threads_option(app, arguments->threads);

@@ -40,7 +40,7 @@ std::string phase_name(const FitReport& report, const WatchedFit& fit, const Fit
   const int starts =
       fit.sweep == 0 && report.start.empty() ? report.settings.gauss_newton.starts : 1;
   if (step.start >= starts)
-    return sweep + "fine";
+    return sweep + fmt::format("fine {}", step.start - starts + 1);
   if (fit.sweep > 0)
     return sweep + "coarse";
   if (report.start.empty())

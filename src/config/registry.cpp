@@ -67,6 +67,7 @@ std::vector<Key> fit_keys() {
       key("fit.gauss_newton.steps", [](Draft& d) { return &d.config.fit.gauss_newton.steps; }, {1, 1000}, "most steps of the fine phase"),
       key("fit.gauss_newton.tolerance", [](Draft& d) { return &d.config.fit.gauss_newton.tolerance; }, {0, 1}, "the fine phase ends when a step gains less than this share of the loss"),
       key("fit.gauss_newton.target_samples", [](Draft& d) { return &d.config.fit.gauss_newton.target_samples; }, {64, 1048576}, "GGX samples that the target's quantiles come from"),
+      key("fit.gauss_newton.adaptive", [](Draft& d) { return &d.config.fit.gauss_newton.adaptive; }, "fit lobes that no LTC comes near with down to a quarter of the samples"),
       key("fit.gauss_newton.starts", [](Draft& d) { return &d.config.fit.gauss_newton.starts; }, {1, 16}, "starting points tried in the coarse phase"),
       key("fit.gauss_newton.neighbour_sweeps", [](Draft& d) { return &d.config.fit.gauss_newton.neighbour_sweeps; }, {0, 16}, "how often an entry tries its neighbours' solutions"),
 

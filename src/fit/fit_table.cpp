@@ -81,6 +81,8 @@ void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& wo
                std::vector<FitStep>* trace, FittedEntry& entry) {
   const FitResult result = solver.fit(request, workspace, trace);
   entry.steps += result.steps;
+  if (request.incumbent && result.matrix == request.incumbent->matrix)
+    return;
   if (result.outcome == FitOutcome::non_finite) {
     entry.status = Status::failed;
     entry.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -138,9 +140,12 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
   if (watch)
     watch->fits.assign(1, {});
   fit_all("fit", plain_request, entries);
+  // Nothing that samples could tell is better than a closed form.
+  std::erase_if(to_fit, [&](std::size_t flat) { return entries[flat].status == Status::analytic; });
+  const bool watching = watch && entries[watch->entry].status != Status::analytic;
   for (int sweep = 1; sweep <= sweep_count(settings); ++sweep) {
     std::vector<FittedEntry> improved = entries;
-    if (watch)
+    if (watching)
       watch->fits.push_back(
           {sweep, neighbour_starts(grid, watch->entry, entries).size(), {}, false});
     fit_all(
@@ -154,7 +159,7 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
           return request;
         },
         improved);
-    if (watch)
+    if (watching)
       watch->fits.back().improved = improved[watch->entry].loss < entries[watch->entry].loss;
     entries = std::move(improved);
   }

@@ -12,12 +12,13 @@
 namespace ltc {
 namespace {
 
-// Squared distance of columns 0 and 1 of P from P0's counts this much of the lobe's spread in lobes
-// narrower than `prior_roughness`, and less by its square ratio in wider ones: P differs from P0 by
-// the order of the roughness, and with a few thousand samples the tails of a sharp lobe, which are
-// all that row 3 moves, are left open.
+// The prior: columns 0 and 1 of P A, less those of P0 A, squared and relative to the width of the
+// first-order lobe, count this much of the lobe's spread where the spread is below `prior_spread`,
+// and less by its square ratio in wider lobes. P differs from P0 by the order of the roughness, and
+// with a few thousand samples the tails of a sharp lobe, which are all that row 3 moves, are left
+// open.
 constexpr double prior_weight = 1e-2;
-constexpr double prior_roughness = 1e-3;
+constexpr double prior_spread = 1.5e-3;
 
 // Smoothing e of the reweighting, as a share of the loss: below it a residual counts as zero.
 constexpr double smoothing_share = 0.05;
@@ -30,14 +31,15 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 double add_prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p,
                  ModelValue& value) {
   double penalty = 0;
-  const double largest = std::max(frame.lobe.alpha_x, frame.lobe.alpha_y);
-  const double wide = largest / prior_roughness;
-  const double strength = prior_weight * spread / (1 + wide * wide);
-  const double share[2] = {frame.lobe.alpha_x / largest, frame.lobe.alpha_y / largest};
+  const double roughness[2] = {frame.lobe.alpha_x, frame.lobe.alpha_y};
+  const double width = std::max(roughness[0] * frame.first_order.col(0).norm(),
+                                roughness[1] * frame.first_order.col(1).norm());
+  const double wide = spread / prior_spread;
+  const double strength = prior_weight * spread / (1 + wide * wide) / (width * width);
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 2; ++column) {
       const double difference = p(row, column) - frame.first_order(row, column);
-      const double weight = strength * share[column] * share[column];
+      const double weight = strength * roughness[column] * roughness[column];
       penalty += 0.5 * weight * difference * difference;
       value.gradient[3 * row + column] += weight * difference;
       value.curvature(3 * row + column, 3 * row + column) += weight;
@@ -122,7 +124,8 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
   best.frame_matrix = start / start.col(2).norm();
   ModelValue value, trial_value;
   double smoothing = smoothing_share * target.spread();
-  evaluate_model(frame, best.frame_matrix, cosines, target, smoothing, workspace, value);
+  evaluate_model(frame, best.frame_matrix, cosines, target, options.direction_stride, smoothing,
+                 workspace, value);
   best.loss = value.loss;
   double objective = value.loss + add_prior(frame, target.spread(), best.frame_matrix, value);
   double damping = options.damping;
@@ -140,7 +143,8 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
     bool accepted = trial.allFinite() && trial.determinant() > 0;
     double trial_objective = objective;
     if (accepted) {
-      evaluate_model(frame, trial, cosines, target, smoothing, workspace, trial_value);
+      evaluate_model(frame, trial, cosines, target, options.direction_stride, smoothing, workspace,
+                     trial_value);
       const double loss = trial_value.loss;
       trial_objective = loss + add_prior(frame, target.spread(), trial, trial_value);
       accepted = trial_objective < objective;

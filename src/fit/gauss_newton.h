@@ -16,6 +16,7 @@ struct DescentOptions {
   int steps = 10;           // most steps, accepted or not
   double tolerance = 1e-3;  // stop when an accepted step gains less than this share of the loss
   double damping = 1e-2;    // first damping, relative to the curvature's diagonal
+  std::size_t direction_stride = 1;  // every which of the target's directions is looked along
   // What a trace calls these steps, and since when it counts time.
   int phase = 0;
   std::chrono::steady_clock::time_point begin = {};

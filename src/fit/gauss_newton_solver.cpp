@@ -13,11 +13,18 @@
 namespace ltc {
 namespace {
 
-// Blocks of neighbouring quantiles a direction: about 16 samples each, which is where finer blocks
-// stop paying and coarser ones begin to blur the tails.
+// Blocks of neighbouring quantiles a direction: finer ones stop paying and coarser ones begin to
+// blur the tails.
 std::size_t bins_for(int samples) {
-  return static_cast<std::size_t>(std::clamp(samples / 16, 32, 256));
+  return static_cast<std::size_t>(std::clamp(samples / 32 / 16 * 16, 32, 256));
 }
+
+// A lobe whose loss is r of its spread is fitted with at least this over r samples: the share that
+// the lattice's noise has in the loss is then below some 1 %.
+constexpr double samples_per_inverse_loss = 30;
+
+// The tolerance of levels that another follows.
+constexpr double passing_tolerance = 1e-3;
 
 // A start is descended from, beside an incumbent, when its loss is below this many times the
 // incumbent's: one that is worse has never overtaken it.
@@ -27,8 +34,8 @@ constexpr double promising_share = 1.5;
 constexpr double worthwhile_gain = 2e-3;
 
 // P0's error, relative to the lobe's width, is of the order of alpha/cos^2 theta. Below this it is
-// less than 1e-3, which 65,536 samples do not resolve, let alone those of a fit.
-constexpr double exact_first_order = 5e-4;
+// about 1e-3, which 65,536 samples do not resolve, let alone those of a fit.
+constexpr double exact_first_order = 6e-4;
 
 bool first_order_is_exact(const LobeFrame& frame) {
   const double cosine = frame.omega_v.z();
@@ -46,37 +53,56 @@ FitResult no_result(int steps) {
 
 }  // namespace
 
-GaussNewtonSolver::Phase GaussNewtonSolver::make_phase(int samples, int directions, int steps,
+GaussNewtonSolver::Level GaussNewtonSolver::make_level(int samples, int steps, double tolerance,
                                                        double shift) {
-  Phase phase;
-  phase.cosines = make_cosine_set(static_cast<std::size_t>(samples), shift);
-  for (const Eigen::Vector3d& direction :
-       fibonacci_directions(static_cast<std::size_t>(directions)))
-    phase.directions.push_back(direction.cast<float>());
-  phase.bins = bins_for(samples);
-  phase.options.steps = steps;
-  return phase;
+  Level level{make_cosine_set(static_cast<std::size_t>(samples), shift), {}};
+  level.options.steps = steps;
+  level.options.tolerance = tolerance;
+  return level;
 }
 
 GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target)
     : settings_(settings),
       target_kind_(target),
+      bins_(bins_for(settings.samples)),
       lattice_(make_target_lattice(static_cast<std::size_t>(settings.target_samples), 0.3)),
-      coarse_(make_phase(settings.coarse_samples, settings.coarse_directions, settings.coarse_steps,
-                         0.1)),
-      fine_(make_phase(settings.samples, settings.directions, settings.steps, 0.0)) {
-  coarse_.options.tolerance = settings.coarse_tolerance;
-  fine_.options.tolerance = settings.tolerance;
-  fine_.options.damping = 1e-3;  // it starts next to a minimum
+      light_lattice_(settings.adaptive ? make_target_lattice(static_cast<std::size_t>(std::max(
+                                                                 settings.target_samples / 2, 64)),
+                                                             0.3)
+                                       : lattice_),
+      coarse_(make_level(settings.coarse_samples, settings.coarse_steps, settings.coarse_tolerance,
+                         0.1)) {
+  for (const Eigen::Vector3d& direction :
+       fibonacci_directions(static_cast<std::size_t>(settings.directions)))
+    directions_.push_back(direction.cast<float>());
+  coarse_.options.direction_stride =
+      static_cast<std::size_t>(std::max(1, settings.directions / settings.coarse_directions));
+  for (const int divisor : {4, 2, 1}) {
+    const int samples = settings.samples / divisor;
+    if (divisor > 1 && (!settings.adaptive || samples < settings.coarse_samples))
+      continue;
+    levels_.push_back(make_level(samples, settings.steps, settings.tolerance, 0.0));
+    levels_.back().options.damping = 1e-3;  // it starts next to a minimum
+  }
 }
 
-void GaussNewtonSolver::sample_target(const LobeFrame& frame, std::uint64_t seed,
-                                      FitWorkspace& workspace) const {
+void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed,
+                                   const TargetLattice& lattice, FitWorkspace& workspace) const {
   if (target_kind_ == TargetKind::weighted)
-    sample_weighted_target(frame, lattice_, workspace.target);
+    sample_weighted_target(frame, lattice, workspace.target);
   else
-    sample_rejection_target(frame, static_cast<std::size_t>(settings_.target_samples), seed,
-                            workspace.target);
+    sample_rejection_target(frame, lattice.size(), seed, workspace.target);
+  workspace.quantiles.build(workspace.target, directions_, bins_, workspace.model.xi,
+                            workspace.model.bins);
+}
+
+std::size_t GaussNewtonSolver::level_for(double relative_loss) const {
+  std::size_t level = 0;
+  while (level + 1 < levels_.size() &&
+         static_cast<double>(levels_[level].cosines.size()) * relative_loss <
+             samples_per_inverse_loss)
+    ++level;
+  return level;
 }
 
 std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& frame,
@@ -94,8 +120,8 @@ FitResult GaussNewtonSolver::analytic_result(const LobeFrame& frame,
                                              FitWorkspace& workspace) const {
   const Eigen::Matrix3d p = admissible(frame.first_order, free_entries(frame.lobe));
   ModelValue value;
-  evaluate_model(frame, p, fine_.cosines, workspace.fine_quantiles,
-                 workspace.fine_quantiles.spread(), workspace.model, value);
+  evaluate_model(frame, p, levels_.back().cosines, workspace.quantiles, 1,
+                 workspace.quantiles.spread(), workspace.model, value);
   return {frame.to_matrix(p), value.loss, 0, FitOutcome::analytic};
 }
 
@@ -111,8 +137,8 @@ Descent GaussNewtonSolver::best_coarse_descent(const LobeFrame& frame,
     if (!usable(starts[i]))
       continue;
     options.phase = static_cast<int>(i);
-    const Descent descent = minimise(frame, starts[i], free, coarse_.cosines,
-                                     workspace.coarse_quantiles, options, workspace.model, trace);
+    const Descent descent = minimise(frame, starts[i], free, coarse_.cosines, workspace.quantiles,
+                                     options, workspace.model, trace);
     result.steps += descent.steps;
     if (descent.loss < best.loss)
       best = descent;
@@ -129,8 +155,9 @@ std::vector<Eigen::Matrix3d> GaussNewtonSolver::promising(
   for (const Eigen::Matrix3d& start : starts) {
     if (!usable(start))
       continue;
-    evaluate_model(frame, start, coarse_.cosines, workspace.coarse_quantiles,
-                   workspace.coarse_quantiles.spread(), workspace.model, value);
+    evaluate_model(frame, start, coarse_.cosines, workspace.quantiles,
+                   coarse_.options.direction_stride, workspace.quantiles.spread(), workspace.model,
+                   value);
     if (value.loss < best) {
       best = value.loss;
       kept.assign(1, start);
@@ -139,20 +166,46 @@ std::vector<Eigen::Matrix3d> GaussNewtonSolver::promising(
   return kept;
 }
 
+// From the coarse solution up the levels until the samples suffice for what is left of the loss. A
+// lobe that needs the last one passes through the one before, where steps are cheap, and gets a
+// target of its own there.
+Descent GaussNewtonSolver::climb(const LobeFrame& frame, const FitRequest& request, Descent descent,
+                                 DescentOptions watched, FitWorkspace& workspace, FitResult& result,
+                                 std::vector<FitStep>* trace) const {
+  const FreeEntries free = free_entries(frame.lobe);
+  const std::size_t last = levels_.size() - 1;
+  std::size_t level = level_for(descent.loss / workspace.quantiles.spread());
+  if (level == last && last > 0)
+    --level;
+  for (;; ++level) {
+    DescentOptions options = levels_[level].options;
+    options.begin = watched.begin;
+    options.progress = watched.progress;
+    options.phase = watched.phase++;
+    const bool passing =
+        level < last && level_for(descent.loss / workspace.quantiles.spread()) > level;
+    if (passing)
+      options.tolerance = std::max(options.tolerance, passing_tolerance);
+    descent = minimise(frame, descent.frame_matrix, free, levels_[level].cosines,
+                       workspace.quantiles, options, workspace.model, trace);
+    result.steps += descent.steps;
+    if (level == last || level_for(descent.loss / workspace.quantiles.spread()) <= level)
+      return descent;
+    if (level + 1 == last)
+      see_target(frame, request.seed, lattice_, workspace);
+  }
+}
+
 FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                                  std::vector<FitStep>* trace) const {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto options_of = [&](const Phase& phase) {
-    DescentOptions options = phase.options;
-    options.begin = begin;
-    options.progress = request.progress;
-    return options;
-  };
   const LobeFrame frame(request.lobe);
   const FreeEntries free = free_entries(request.lobe);
-  sample_target(frame, request.seed, workspace);
-  workspace.coarse_quantiles.build(workspace.target, coarse_.directions, coarse_.bins,
-                                   workspace.model.xi, workspace.model.bins);
+  DescentOptions options = coarse_.options;
+  options.begin = std::chrono::steady_clock::now();
+  options.progress = request.progress;
+  see_target(frame, request.seed, light_lattice_, workspace);
+  if (request.starts.empty() && first_order_is_exact(frame))
+    return analytic_result(frame, workspace);
 
   std::vector<Eigen::Matrix3d> starts;
   for (const Eigen::Matrix3d& matrix : request.starts)
@@ -160,39 +213,26 @@ FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& worksp
   if (starts.empty())
     starts = own_starts(frame, request.seed, workspace);
 
-  if (request.starts.empty() && first_order_is_exact(frame)) {
-    workspace.fine_quantiles.build(workspace.target, fine_.directions, fine_.bins,
-                                   workspace.model.xi, workspace.model.bins);
-    return analytic_result(frame, workspace);
-  }
-
   FitResult result;
   double loss_to_beat = std::numeric_limits<double>::infinity();
   if (request.incumbent) {
     result = *request.incumbent;
-    result.steps = 0;
     // The incumbent settles on the coarse samples before it is compared on them.
     const Descent settled =
         minimise(frame, admissible(frame.from_matrix(result.matrix), free), free, coarse_.cosines,
-                 workspace.coarse_quantiles, options_of(coarse_), workspace.model, nullptr);
-    result.steps += settled.steps;
+                 workspace.quantiles, options, workspace.model, nullptr);
+    result.steps = settled.steps;
     loss_to_beat = settled.loss;
     starts = promising(frame, starts, loss_to_beat, workspace);
   }
-  const Descent best =
-      best_coarse_descent(frame, starts, options_of(coarse_), workspace, result, trace);
+  const Descent best = best_coarse_descent(frame, starts, options, workspace, result, trace);
   if (!(best.loss < (1 - worthwhile_gain) * loss_to_beat)) {
     if (!request.incumbent)
       result = no_result(result.steps);
     return result;
   }
-  workspace.fine_quantiles.build(workspace.target, fine_.directions, fine_.bins, workspace.model.xi,
-                                 workspace.model.bins);
-  DescentOptions options = options_of(fine_);
   options.phase = static_cast<int>(starts.size());
-  const Descent descent = minimise(frame, best.frame_matrix, free, fine_.cosines,
-                                   workspace.fine_quantiles, options, workspace.model, trace);
-  result.steps += descent.steps;
+  const Descent descent = climb(frame, request, best, options, workspace, result, trace);
   if (request.incumbent && !(descent.loss < result.loss))
     return result;
   result.matrix = frame.to_matrix(descent.frame_matrix);

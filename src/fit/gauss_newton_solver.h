@@ -21,19 +21,23 @@ class GaussNewtonSolver final : public Solver {
                 std::vector<FitStep>* trace) const override;
 
  private:
-  // One phase's fixed sets, shared by all entries.
-  struct Phase {
+  // A cosine set, shared by all entries, and how to descend with it.
+  struct Level {
     CosineSet cosines;
-    std::vector<Eigen::Vector3f> directions;
-    std::size_t bins;
     DescentOptions options;
   };
-  static Phase make_phase(int samples, int directions, int steps, double shift);
+  static Level make_level(int samples, int steps, double tolerance, double shift);
 
-  void sample_target(const LobeFrame& frame, std::uint64_t seed, FitWorkspace& workspace) const;
+  // Draws the target from one of the lattices and looks at it along all directions.
+  void see_target(const LobeFrame& frame, std::uint64_t seed, const TargetLattice& lattice,
+                  FitWorkspace& workspace) const;
   std::vector<Eigen::Matrix3d> own_starts(const LobeFrame& frame, std::uint64_t seed,
                                           const FitWorkspace& workspace) const;
-
+  // The first level that has samples enough for a lobe whose loss is this share of its spread.
+  std::size_t level_for(double relative_loss) const;
+  Descent climb(const LobeFrame& frame, const FitRequest& request, Descent descent,
+                DescentOptions watched, FitWorkspace& workspace, FitResult& result,
+                std::vector<FitStep>* trace) const;
   Descent best_coarse_descent(const LobeFrame& frame, const std::vector<Eigen::Matrix3d>& starts,
                               DescentOptions options, FitWorkspace& workspace, FitResult& result,
                               std::vector<FitStep>* trace) const;
@@ -45,8 +49,11 @@ class GaussNewtonSolver final : public Solver {
 
   GaussNewtonSettings settings_;
   TargetKind target_kind_;
-  TargetLattice lattice_;
-  Phase coarse_, fine_;
+  std::vector<Eigen::Vector3f> directions_;
+  std::size_t bins_;
+  TargetLattice lattice_, light_lattice_;  // of the last level, and of all below
+  Level coarse_;
+  std::vector<Level> levels_;  // ascending
 };
 
 }  // namespace ltc

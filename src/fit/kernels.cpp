@@ -117,33 +117,142 @@ void accumulate_rows(const float* xi, const std::int32_t* bins, const float* row
 }
 
 void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,
-                        std::size_t count, float* sums) {
+                        std::size_t count, float* scratch, float* sums) {
+  const Floats d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const V weight = hn::Load(d, weights + i);
+    hn::StoreInterleaved2(weight, hn::Mul(weight, hn::Load(d, xi + i)), d, scratch + 2 * i);
+  }
+  const hn::CappedTag<float, 2> pair;
   for (std::size_t i = 0; i < count; ++i) {
     float* sum = sums + 2 * static_cast<std::size_t>(bins[i]);
-    sum[0] += weights[i];
-    sum[1] += weights[i] * xi[i];
+    hn::StoreU(hn::Add(hn::LoadU(pair, sum), hn::LoadU(pair, scratch + 2 * i)), pair, sum);
   }
 }
 
-void accumulate_outer_products(const float* vectors, const float* factors, std::size_t blocks,
-                               float* hessian) {
+// Integral of the target's quantile function from 0 to u in [0, 1].
+V integrated_quantile(const TargetCells& target, std::size_t bin_count, V u) {
   const Floats d;
-  const std::size_t lanes = hn::Lanes(d);
-  for (std::size_t part = 0; part < row_width; part += lanes) {
-    if (part >= 9)
+  const Ints di;
+  const auto one = hn::Set(di, 1);
+  const auto last_cell = hn::Set(di, static_cast<std::int32_t>(bin_count) - 1);
+  const V scaled = hn::Mul(u, hn::Set(d, static_cast<float>(bin_count)));
+  auto cell = hn::GatherIndex(di, target.first_cell, hn::Min(hn::ConvertTo(di, scaled), last_cell));
+  for (;;) {
+    const V upper = hn::GatherIndex(d, target.mass, hn::Add(cell, one));
+    const auto up = hn::And(hn::RebindMask(di, hn::Lt(upper, u)), hn::Lt(cell, last_cell));
+    if (hn::AllFalse(di, up))
       break;
-    V sum[9];
-    for (std::size_t row = 0; row < 9; ++row)
-      sum[row] = hn::Load(d, hessian + row * row_width + part);
-    for (std::size_t block = 0; block < blocks; ++block) {
-      const float* vector = vectors + block * row_width;
-      const V scaled = hn::Mul(hn::Set(d, factors[block]), hn::Load(d, vector + part));
-      for (std::size_t row = 0; row < 9; ++row)
-        sum[row] = hn::MulAdd(hn::Set(d, vector[row]), scaled, sum[row]);
-    }
-    for (std::size_t row = 0; row < 9; ++row)
-      hn::Store(sum[row], d, hessian + row * row_width + part);
+    cell = hn::Add(cell, hn::IfThenElseZero(up, one));
   }
+  const V offset = hn::Sub(u, hn::GatherIndex(d, target.mass, cell));
+  const V s = hn::Min(
+      hn::Set(d, 1.0f),
+      hn::Max(hn::Zero(d), hn::Mul(offset, hn::GatherIndex(d, target.inverse_width, cell))));
+  const V cubic =
+      hn::MulAdd(s, hn::GatherIndex(d, target.c3, cell), hn::GatherIndex(d, target.c2, cell));
+  const V quadratic = hn::MulAdd(s, cubic, hn::GatherIndex(d, target.c1, cell));
+  return hn::MulAdd(s, quadratic, hn::GatherIndex(d, target.moment, cell));
+}
+
+// jacobian_of_sums for every bin, padded with zeros to rows.
+void store_jacobians(const ProjectionMap& map, const float* sums, std::size_t bin_count,
+                     float* jacobians) {
+#if HWY_TARGET <= HWY_AVX3
+  // A row is a register: lane l is factor[l] sum[source[l]] - sum[l].
+  const Floats d;
+  HWY_ALIGN const std::int32_t source[row_width] = {12, 13, 14, 12, 13, 14, 9, 10,
+                                                    11, 0,  0,  0,  0,  0,  0, 0};
+  const float x = map.direction_x, y = map.direction_y;
+  HWY_ALIGN const float factor[row_width] = {x, x, x, y, y, y, -1, -1, -1};
+  const auto indices = hn::SetTableIndices(d, source);
+  const V factors = hn::Load(d, factor);
+  const auto used = hn::FirstN(d, 9);
+  for (std::size_t b = 0; b < bin_count; ++b) {
+    const V sum = hn::Load(d, sums + b * row_width);
+    const V jacobian = hn::MulSub(factors, hn::TableLookupLanes(sum, indices), sum);
+    hn::Store(hn::IfThenElseZero(used, jacobian), d, jacobians + b * row_width);
+  }
+#else
+  for (std::size_t b = 0; b < bin_count; ++b) {
+    float* jacobian = jacobians + b * row_width;
+    jacobian_of_sums(map, sums + b * row_width, jacobian);
+    for (std::size_t lane = 9; lane < row_width; ++lane)
+      jacobian[lane] = 0;
+  }
+#endif
+}
+
+void reduce_direction(const ProjectionMap& map, const float* sums, const std::int32_t* populations,
+                      std::size_t bin_count, std::size_t count, const TargetCells& target,
+                      float smoothing, float* scratch, DirectionSums& result) {
+  const Floats d;
+  const Ints di;
+  const std::size_t lanes = hn::Lanes(d);
+  float* const integral = scratch;  // one place later: integral[b + 1] is that below bin b's top
+  float* const xi_sums = scratch + bin_count;
+  float* const pulls = scratch + 2 * bin_count;
+  float* const factors = scratch + 3 * bin_count;
+  const float share = 1.0f / static_cast<float>(count);
+  std::int32_t below = 0;
+  for (std::size_t b = 0; b < bin_count; ++b) {
+    below += populations[b];
+    pulls[b] = static_cast<float>(below) * share;
+    xi_sums[b] = sums[b * row_width + 15];
+  }
+  for (std::size_t b = 0; b < bin_count; b += lanes)
+    hn::Store(integrated_quantile(target, bin_count, hn::Load(d, pulls + b)), d, integral + b);
+  V loss = hn::Zero(d);
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), epsilon = hn::Set(d, smoothing);
+  const V total = hn::Set(d, static_cast<float>(count));
+  float previous = 0;
+  for (std::size_t b = 0; b < bin_count; b += lanes) {
+    const V population = hn::ConvertTo(d, hn::Load(di, populations + b));
+    const auto empty = hn::Eq(population, zero);
+    const V inverse = hn::Div(one, hn::IfThenElse(empty, one, population));
+    const V upper = hn::Load(d, integral + b);
+    HWY_ALIGN float shifted[row_width];
+    shifted[0] = previous;
+    for (std::size_t lane = 1; lane < lanes; ++lane)
+      shifted[lane] = integral[b + lane - 1];
+    previous = integral[b + lanes - 1];
+    const V target_sum = hn::Mul(hn::Sub(upper, hn::Load(d, shifted)), total);
+    const V difference = hn::IfThenZeroElse(empty, hn::Sub(hn::Load(d, xi_sums + b), target_sum));
+    const V residual = hn::Mul(difference, inverse);
+    const V weight = hn::Div(one, hn::Add(hn::Abs(residual), epsilon));
+    loss = hn::Add(loss, hn::Abs(difference));
+    hn::Store(hn::Mul(residual, weight), d, pulls + b);
+    hn::Store(hn::IfThenZeroElse(empty, hn::Mul(weight, inverse)), d, factors + b);
+  }
+  // In two passes: a vector load of what scalar stores have just written would have to wait for
+  // them.
+  float* const jacobians = scratch + 4 * bin_count;
+  store_jacobians(map, sums, bin_count, jacobians);
+  V gradient[row_width / 4], hessian[9 * (row_width / 4)];
+  // Lanes 9 to 15 carry nothing; registers that hold only those are left out.
+  const std::size_t parts = (9 + lanes - 1) / lanes;
+  for (std::size_t part = 0; part < parts; ++part) {
+    gradient[part] = hn::Load(d, result.gradient + part * lanes);
+    for (std::size_t row = 0; row < 9; ++row)
+      hessian[row * parts + part] = hn::Load(d, result.hessian + row * row_width + part * lanes);
+  }
+  for (std::size_t b = 0; b < bin_count; ++b) {
+    const float* jacobian = jacobians + b * row_width;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const V j = hn::Load(d, jacobian + part * lanes);
+      gradient[part] = hn::MulAdd(hn::Set(d, pulls[b]), j, gradient[part]);
+      const V scaled = hn::Mul(hn::Set(d, factors[b]), j);
+      for (std::size_t row = 0; row < 9; ++row)
+        hessian[row * parts + part] =
+            hn::MulAdd(hn::Set(d, jacobian[row]), scaled, hessian[row * parts + part]);
+    }
+  }
+  for (std::size_t part = 0; part < parts; ++part) {
+    hn::Store(gradient[part], d, result.gradient + part * lanes);
+    for (std::size_t row = 0; row < 9; ++row)
+      hn::Store(hessian[row * parts + part], d, result.hessian + row * row_width + part * lanes);
+  }
+  result.loss += hn::GetLane(hn::SumOfLanes(d, loss));
 }
 
 void sample_target(const TargetParameters& parameters, const float* cos_azimuth,
@@ -162,19 +271,24 @@ void sample_target(const TargetParameters& parameters, const float* cos_azimuth,
   const V vz = hn::Set(d, parameters.view_z);
   const V sx = hn::Set(d, stretched_x / stretched_length);
   const V sy = hn::Set(d, stretched_y / stretched_length);
-  const V sz = hn::Set(d, parameters.view_z / stretched_length);
+  const float cap_z = parameters.view_z / stretched_length;
+  const V rim_depth = hn::Set(d, 1.0f + cap_z);
+  const V one_less_sz = hn::Set(d, (stretched_x * stretched_x + stretched_y * stretched_y) /
+                                       (stretched_length * (stretched_length + parameters.view_z)));
   // 1 + Lambda(v) = (1 + |v stretched| / vz) / 2, equation (5).
   const V shadow_view = hn::Set(d, 0.5f * (1.0f + stretched_length / parameters.view_z));
   const float* q = parameters.rotation;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     // A point c of the spherical cap c_z in (-sz, 1]; the microfacet normal is c + s, unstretched.
+    // At the rim, u near 1, both c_z + s_z and 1 + c_z are small: they are sums of terms of one
+    // sign, so that the tail keeps its digits.
     const V u = hn::Load(d, height + i);
-    const V drop = hn::Mul(u, hn::Add(one, sz));  // 1 - c_z
-    const V cz = hn::Sub(one, drop);
-    const V radius = hn::Sqrt(hn::Max(zero, hn::Mul(drop, hn::Sub(two, drop))));
+    const V above_rim = hn::Mul(hn::Sub(one, u), rim_depth);  // c_z + s_z
+    const V drop = hn::Mul(u, rim_depth);                     // 1 - c_z
+    const V radius = hn::Sqrt(hn::Mul(drop, hn::Add(above_rim, one_less_sz)));
     const V nx = hn::Mul(ax, hn::MulAdd(radius, hn::Load(d, cos_azimuth + i), sx));
     const V ny = hn::Mul(ay, hn::MulAdd(radius, hn::Load(d, sin_azimuth + i), sy));
-    const V nz = hn::Max(zero, hn::Add(cz, sz));
+    const V nz = above_rim;
     const V lateral = hn::MulAdd(nx, nx, hn::Mul(ny, ny));
     const V length = hn::Sqrt(hn::MulAdd(nz, nz, lateral));
     const V scale = hn::Div(one, length);
@@ -217,7 +331,7 @@ HWY_EXPORT(transform_samples);
 HWY_EXPORT(project_and_bin);
 HWY_EXPORT(accumulate_rows);
 HWY_EXPORT(accumulate_weights);
-HWY_EXPORT(accumulate_outer_products);
+HWY_EXPORT(reduce_direction);
 HWY_EXPORT(sample_target);
 
 void transform_samples(const float* frame_matrix, float alpha_x, float alpha_y,
@@ -238,13 +352,15 @@ void accumulate_rows(const float* xi, const std::int32_t* bins, const float* row
 }
 
 void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,
-                        std::size_t count, float* sums) {
-  HWY_DYNAMIC_DISPATCH(accumulate_weights)(xi, bins, weights, count, sums);
+                        std::size_t count, float* scratch, float* sums) {
+  HWY_DYNAMIC_DISPATCH(accumulate_weights)(xi, bins, weights, count, scratch, sums);
 }
 
-void accumulate_outer_products(const float* vectors, const float* factors, std::size_t blocks,
-                               float* hessian) {
-  HWY_DYNAMIC_DISPATCH(accumulate_outer_products)(vectors, factors, blocks, hessian);
+void reduce_direction(const ProjectionMap& map, const float* sums, const std::int32_t* populations,
+                      std::size_t bin_count, std::size_t count, const TargetCells& target,
+                      float smoothing, float* scratch, DirectionSums& result) {
+  HWY_DYNAMIC_DISPATCH(reduce_direction)
+  (map, sums, populations, bin_count, count, target, smoothing, scratch, result);
 }
 
 void sample_target(const TargetParameters& parameters, const float* cos_azimuth,

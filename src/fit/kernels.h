@@ -30,6 +30,17 @@ struct ProjectionMap {
   float centre, inverse_scale;  // z = (xi - centre) * inverse_scale
 };
 
+// dx/dP summed over the samples of a bin (nine numbers, row-major), from the bin's row sums.
+inline void jacobian_of_sums(const ProjectionMap& map, const float* sums, float* jacobian) {
+  for (int c = 0; c < 3; ++c) {
+    jacobian[c] = map.direction_x * sums[12 + c] - sums[c];
+    jacobian[3 + c] = map.direction_y * sums[12 + c] - sums[3 + c];
+    // (d_z - x f_z) a with f_z = 1 + g_z and x = xi + d_z: the two d_z cancel on paper, not in
+    // floating point.
+    jacobian[6 + c] = -sums[9 + c] - sums[6 + c];
+  }
+}
+
 // Fills offset arrays gx, gy, gz and the rows (16 floats a sample: the factors above without x and
 // xi) for `count` cosine samples (multiple of 16) and the row-major frame matrix P.
 void transform_samples(const float* frame_matrix, float alpha_x, float alpha_y,
@@ -46,13 +57,37 @@ void accumulate_rows(const float* xi, const std::int32_t* bins, const float* row
                      std::size_t count, float direction_z, float* sums, std::int32_t* populations);
 
 // Adds weight w and w xi of each sample to its bin; `sums` holds bin_count pairs (w, w xi).
+// `scratch` holds 2 count floats.
 void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,
-                        std::size_t count, float* sums);
+                        std::size_t count, float* scratch, float* sums);
 
-// hessian (9 rows of 16 floats, the last 7 unused) += factor * j j^T for `blocks` vectors j (16
-// floats each, the last 7 zero).
-void accumulate_outer_products(const float* vectors, const float* factors, std::size_t blocks,
-                               float* hessian);
+// The target along one direction, cut into cells at the bins' edges. Over cell j the integral of
+// its quantile function is moment + s (c1 + s (c2 + s c3)), s = (u - mass) inverse_width in [0, 1].
+struct TargetCells {
+  const float* mass;  // bin_count + 1 values, the last one 1
+  // Where to look for u: the cell of i / bin_count, the lower bound of floor(u bin_count)'s.
+  const std::int32_t* first_cell;
+  const float* moment;
+  const float* inverse_width;
+  const float* c1;
+  const float* c2;
+  const float* c3;
+};
+
+// What one direction adds to the model (quantile_model.h): `gradient` row_width floats, the last 7
+// unused; `hessian` 9 rows of row_width floats, likewise. All are added to.
+struct DirectionSums {
+  float* gradient;
+  float* hessian;
+  double loss;
+};
+
+// Compares the binned LTC with the target's quantiles and accumulates loss, gradient and curvature.
+// bin_count is a multiple of 16, `count` the number of samples. `scratch` holds
+// (4 + row_width) bin_count floats.
+void reduce_direction(const ProjectionMap& map, const float* sums, const std::int32_t* populations,
+                      std::size_t bin_count, std::size_t count, const TargetCells& target,
+                      float smoothing, float* scratch, DirectionSums& result);
 
 // Offsets from the mirror direction (in the mirror's frame) and weights G2/G1 of the lattice's VNDF
 // samples, equation (6) importance sampled (Dupuy and Benyoub 2023); zero weight below the horizon.

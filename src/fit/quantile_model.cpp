@@ -16,49 +16,6 @@ constexpr std::size_t row_width = kernels::row_width;
 // Where bins and starts lie is decided by a subset of the target's samples.
 constexpr std::size_t subset_stride = 8;
 
-// Integral of the target's quantile function from 0 to u, for u inside cell j of the edges: the
-// cubic that has the cell's mass and moment and the edges as its slopes; at the two open ends,
-// where an edge is infinite, linear.
-double integrated_quantile(const TargetQuantiles& target, std::size_t direction, std::size_t j,
-                           double u) {
-  const double* mass = target.mass(direction);
-  const double* moment = target.moment(direction);
-  const double width = mass[j + 1] - mass[j];
-  if (width <= 0)
-    return moment[j];
-  const double s = std::clamp((u - mass[j]) / width, 0.0, 1.0);
-  if (j == 0 || j + 1 == target.bin_count())
-    return moment[j] + s * (moment[j + 1] - moment[j]);
-  const double lower = width * target.edge(direction, j);
-  const double upper = width * target.edge(direction, j + 1);
-  const double rise = moment[j + 1] - moment[j];
-  // Hermite form of the cubic.
-  return moment[j] +
-         s * (lower + s * ((3 * rise - 2 * lower - upper) + s * (lower + upper - 2 * rise)));
-}
-
-// Mean of the target's quantile function over each bin of the LTC, `populations` samples of
-// `count`.
-void match_quantiles(const TargetQuantiles& target, std::size_t direction,
-                     const std::int32_t* populations, std::size_t count, double* means) {
-  const double* mass = target.mass(direction);
-  const std::size_t bins = target.bin_count();
-  std::size_t cell = 0;
-  std::size_t below = 0;
-  double previous = 0;
-  for (std::size_t b = 0; b < bins; ++b) {
-    if (populations[b] == 0)
-      continue;
-    below += static_cast<std::size_t>(populations[b]);
-    const double u = static_cast<double>(below) / static_cast<double>(count);
-    while (cell + 1 < bins && mass[cell + 1] < u)
-      ++cell;
-    const double integral = integrated_quantile(target, direction, cell, u);
-    means[b] = (integral - previous) * static_cast<double>(count) / populations[b];
-    previous = integral;
-  }
-}
-
 void reserve(TargetSamples& samples, std::size_t count) {
   samples.size = count;
   for (AlignedFloats* array : {&samples.gx, &samples.gy, &samples.gz, &samples.weight})
@@ -140,8 +97,12 @@ void TargetQuantiles::build(const TargetSamples& samples,
   }
   maps_.resize(directions.size());
   mass_.resize(directions.size() * (bin_count + 1));
-  moment_.resize(mass_.size());
+  for (AlignedFloats* array : {&moment_, &inverse_width_, &c1_, &c2_, &c3_})
+    array->resize(directions.size() * bin_count);
+  first_cell_.resize(directions.size() * bin_count);
   sums_.resize(2 * bin_count);
+  if (pairs_.size() < 2 * samples.size)
+    pairs_.resize(2 * samples.size);
   if (xi.size() < samples.size) {
     xi.resize(samples.size);
     bins.resize(samples.size);
@@ -158,41 +119,66 @@ void TargetQuantiles::build(const TargetSamples& samples,
                              samples.size, bin_count, xi.data(), bins.data());
     std::fill(sums_.begin(), sums_.end(), 0.0f);
     kernels::accumulate_weights(xi.data(), bins.data(), samples.weight.data(), samples.size,
-                                sums_.data());
-    double* mass = mass_.data() + k * (bin_count + 1);
-    double* moment = moment_.data() + k * (bin_count + 1);
-    mass[0] = moment[0] = 0;
-    for (std::size_t b = 0; b < bin_count; ++b) {
-      mass[b + 1] = mass[b] + sums_[2 * b];
-      moment[b + 1] = moment[b] + sums_[2 * b + 1];
-    }
-    const double total = mass[bin_count];
-    for (std::size_t j = 1; j <= bin_count; ++j) {
-      mass[j] /= total;
-      moment[j] /= total;
-    }
+                                pairs_.data(), sums_.data());
+    cut_into_cells(k);
     spread_ += scale;
   }
   spread_ /= static_cast<double>(directions.size());
 }
 
+// Mass and moment of every bin to the cells of kernels::TargetCells. Inside, the integral of the
+// quantile function is the cubic with the cell's mass and moment whose slopes at the ends are the
+// bin's edges; in the first and last cell, where an edge is infinite, it is linear.
+void TargetQuantiles::cut_into_cells(std::size_t direction) {
+  const kernels::ProjectionMap& map = maps_[direction];
+  double total = 0;
+  for (std::size_t b = 0; b < bin_count_; ++b)
+    total += sums_[2 * b];
+  float* mass = mass_.data() + direction * (bin_count_ + 1);
+  const std::size_t first = direction * bin_count_;
+  double below = 0, moment = 0;
+  mass[0] = 0;
+  for (std::size_t b = 0; b < bin_count_; ++b) {
+    const double width = sums_[2 * b] / total, rise = sums_[2 * b + 1] / total;
+    below += width;
+    mass[b + 1] = static_cast<float>(below);
+    moment_[first + b] = static_cast<float>(moment);
+    inverse_width_[first + b] = width > 0 ? static_cast<float>(1 / width) : 0.0f;
+    const bool open = b == 0 || b + 1 == bin_count_;
+    const double lower = width * (map.centre + unit_edges_[b] / map.inverse_scale);
+    const double upper = width * (map.centre + unit_edges_[b + 1] / map.inverse_scale);
+    c1_[first + b] = static_cast<float>(open ? rise : lower);
+    c2_[first + b] = open ? 0.0f : static_cast<float>(3 * rise - 2 * lower - upper);
+    c3_[first + b] = open ? 0.0f : static_cast<float>(lower + upper - 2 * rise);
+    moment += rise;
+  }
+  mass[bin_count_] = 1;
+  std::int32_t cell = 0;
+  for (std::size_t i = 0; i < bin_count_; ++i) {
+    const float u = static_cast<float>(i) / static_cast<float>(bin_count_);
+    while (static_cast<std::size_t>(cell) + 1 < bin_count_ && mass[cell + 1] < u)
+      ++cell;
+    first_cell_[first + i] = cell;
+  }
+}
+
+kernels::TargetCells TargetQuantiles::cells(std::size_t direction) const {
+  const std::size_t first = direction * bin_count_;
+  return {mass_.data() + direction * (bin_count_ + 1),
+          first_cell_.data() + first,
+          moment_.data() + first,
+          inverse_width_.data() + first,
+          c1_.data() + first,
+          c2_.data() + first,
+          c3_.data() + first};
+}
+
 void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
-                    const CosineSet& cosines, const TargetQuantiles& target, double smoothing,
-                    ModelWorkspace& workspace, ModelValue& value) {
+                    const CosineSet& cosines, const TargetQuantiles& target,
+                    std::size_t direction_stride, double smoothing, ModelWorkspace& workspace,
+                    ModelValue& value) {
   const std::size_t count = cosines.size(), bins = target.bin_count();
-  if (workspace.gx.size() < count) {
-    for (AlignedFloats* array : {&workspace.gx, &workspace.gy, &workspace.gz, &workspace.xi})
-      array->resize(count);
-    workspace.rows.resize(count * row_width);
-    workspace.bins.resize(count);
-  }
-  if (workspace.populations.size() < bins) {
-    workspace.sums.resize(bins * row_width);
-    workspace.vectors.resize(bins * row_width);
-    workspace.factors.resize(bins);
-    workspace.populations.resize(bins);
-    workspace.target_means.resize(bins);
-  }
+  workspace.reserve(count, bins);
   float p[9];
   for (int i = 0; i < 9; ++i)
     p[i] = static_cast<float>(frame_matrix(i / 3, i % 3));
@@ -200,13 +186,13 @@ void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
                              static_cast<float>(frame.lobe.alpha_y), cosines.x.data(),
                              cosines.y.data(), cosines.z.data(), count, workspace.gx.data(),
                              workspace.gy.data(), workspace.gz.data(), workspace.rows.data());
-  value.loss = 0;
+  alignas(vector_alignment) float gradient[row_width];
+  alignas(vector_alignment) float hessian[9 * row_width];
   value.gradient.setZero();
   value.curvature.setZero();
-  alignas(vector_alignment) float hessian[9 * row_width];
-  const double inverse_count = 1.0 / static_cast<double>(count);
-  const double inverse_directions = 1.0 / static_cast<double>(target.direction_count());
-  for (std::size_t k = 0; k < target.direction_count(); ++k) {
+  kernels::DirectionSums sums{gradient, hessian, 0};
+  std::size_t directions = 0;
+  for (std::size_t k = 0; k < target.direction_count(); k += direction_stride, ++directions) {
     const kernels::ProjectionMap& map = target.map(k);
     kernels::project_and_bin(map, workspace.gx.data(), workspace.gy.data(), workspace.gz.data(),
                              count, bins, workspace.xi.data(), workspace.bins.data());
@@ -215,40 +201,37 @@ void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
     kernels::accumulate_rows(workspace.xi.data(), workspace.bins.data(), workspace.rows.data(),
                              count, map.direction_z, workspace.sums.data(),
                              workspace.populations.data());
-    match_quantiles(target, k, workspace.populations.data(), count, workspace.target_means.data());
-    std::size_t blocks = 0;
-    double loss = 0;
-    float gradient[9] = {};
-    for (std::size_t b = 0; b < bins; ++b) {
-      const std::int32_t population = workspace.populations[b];
-      if (population == 0)
-        continue;
-      const float* sum = workspace.sums.data() + b * row_width;
-      float* j = workspace.vectors.data() + blocks * row_width;
-      jacobian_of_sums(map, sum, j);
-      for (std::size_t c = 9; c < row_width; ++c)
-        j[c] = 0;
-      const double residual = sum[15] / static_cast<double>(population) - workspace.target_means[b];
-      loss += std::abs(residual) * population;
-      const double weight = 1 / (std::abs(residual) + smoothing);
-      const float pull = static_cast<float>(residual * weight);
-      for (int i = 0; i < 9; ++i)
-        gradient[i] += pull * j[i];
-      workspace.factors[blocks++] = static_cast<float>(weight / population);
-    }
+    std::fill_n(gradient, row_width, 0.0f);
     std::fill_n(hessian, 9 * row_width, 0.0f);
-    kernels::accumulate_outer_products(workspace.vectors.data(), workspace.factors.data(), blocks,
-                                       hessian);
-    value.loss += loss;
+    kernels::reduce_direction(map, workspace.sums.data(), workspace.populations.data(), bins, count,
+                              target.cells(k), static_cast<float>(smoothing),
+                              workspace.scratch.data(), sums);
+    // In double from direction to direction: the scale of P is a direction of zero curvature, and
+    // only rounding may say otherwise.
     for (int row = 0; row < 9; ++row) {
       value.gradient[row] += gradient[row];
       for (int column = 0; column < 9; ++column)
         value.curvature(row, column) += hessian[row * row_width + column];
     }
   }
-  value.loss *= inverse_count * inverse_directions;
-  value.gradient *= inverse_count * inverse_directions;
-  value.curvature *= inverse_count * inverse_directions;
+  const double share = 1 / (static_cast<double>(count) * static_cast<double>(directions));
+  value.loss = sums.loss * share;
+  value.gradient *= share;
+  value.curvature *= share;
+}
+
+void ModelWorkspace::reserve(std::size_t samples, std::size_t bin_count) {
+  if (gx.size() < samples) {
+    for (AlignedFloats* array : {&gx, &gy, &gz, &xi})
+      array->resize(samples);
+    rows.resize(samples * row_width);
+    bins.resize(samples);
+  }
+  if (populations.size() < bin_count) {
+    sums.resize(bin_count * row_width);
+    scratch.resize(bin_count * (4 + row_width));
+    populations.resize(bin_count);
+  }
 }
 
 }  // namespace ltc

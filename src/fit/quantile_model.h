@@ -71,37 +71,20 @@ class TargetQuantiles {
   // Mean absolute deviation of the target's projections, averaged over the directions.
   double spread() const { return spread_; }
 
-  // Mass below edge j and the integral of the quantile function up to it, j = 0 … bin_count.
-  const double* mass(std::size_t direction) const {
-    return mass_.data() + direction * (bin_count_ + 1);
-  }
-  const double* moment(std::size_t direction) const {
-    return moment_.data() + direction * (bin_count_ + 1);
-  }
-  // Edge j of the bins along a direction, as a projection xi; infinite at both ends.
-  double edge(std::size_t direction, std::size_t j) const {
-    return maps_[direction].centre + unit_edges_[j] / maps_[direction].inverse_scale;
-  }
+  kernels::TargetCells cells(std::size_t direction) const;
 
  private:
+  void cut_into_cells(std::size_t direction);
+
   std::size_t bin_count_ = 0;
   double spread_ = 0;
   std::vector<kernels::ProjectionMap> maps_;
-  std::vector<double> mass_, moment_, unit_edges_;
-  AlignedFloats sums_;
+  std::vector<double> unit_edges_;
+  // Direction-major, see kernels::TargetCells; `mass_` one longer a direction than the others.
+  AlignedFloats mass_, moment_, inverse_width_, c1_, c2_, c3_;
+  AlignedVector<std::int32_t> first_cell_;
+  AlignedFloats sums_, pairs_;
 };
-
-// dx/dP summed over the samples of a bin (nine numbers, row-major), from the bin's row sums.
-inline void jacobian_of_sums(const kernels::ProjectionMap& map, const float* sums,
-                             float* jacobian) {
-  for (int c = 0; c < 3; ++c) {
-    jacobian[c] = map.direction_x * sums[12 + c] - sums[c];
-    jacobian[3 + c] = map.direction_y * sums[12 + c] - sums[3 + c];
-    // (d_z - x f_z) a with f_z = 1 + g_z and x = xi + d_z: the two d_z cancel on paper, not in
-    // floating point.
-    jacobian[6 + c] = -sums[9 + c] - sums[6 + c];
-  }
-}
 
 struct ModelValue {
   double loss = 0;
@@ -111,14 +94,17 @@ struct ModelValue {
 
 // Everything an evaluation writes to; one a thread, reused from entry to entry.
 struct ModelWorkspace {
-  AlignedFloats gx, gy, gz, rows, xi, sums, vectors, factors;
+  void reserve(std::size_t samples, std::size_t bin_count);
+
+  AlignedFloats gx, gy, gz, rows, xi, sums, scratch;
   AlignedVector<std::int32_t> bins, populations;
-  std::vector<double> target_means;
 };
 
-// Evaluates the model at P. `smoothing` is e above, in units of xi.
+// Evaluates the model at P along every `direction_stride`-th direction of the target. `smoothing`
+// is e above, in units of xi.
 void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
-                    const CosineSet& cosines, const TargetQuantiles& target, double smoothing,
-                    ModelWorkspace& workspace, ModelValue& value);
+                    const CosineSet& cosines, const TargetQuantiles& target,
+                    std::size_t direction_stride, double smoothing, ModelWorkspace& workspace,
+                    ModelValue& value);
 
 }  // namespace ltc

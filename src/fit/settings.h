@@ -24,6 +24,9 @@ struct GaussNewtonSettings {
   // A phase ends when a step gains less than this share of the loss, [0, 1].
   double coarse_tolerance = 3e-3;
   double tolerance = 3e-4;
+  // Lobes that no LTC comes near are fitted with down to a quarter of the samples: what is left of
+  // their loss is not noise.
+  bool adaptive = true;
   int starts = 2;            // starting points tried in the coarse phase, [1, 16]
   int neighbour_sweeps = 1;  // how often an entry tries its neighbours' solutions, [0, 16]
 };

@@ -283,8 +283,8 @@ Descender::LossGradient Descender::loss_and_gradient(const Eigen::Matrix3d& fram
     kernels::accumulate_rows(model.xi.data(), model.bins.data(), model.rows.data(), count_, d.z(),
                              sums, populations);
     float low[9], high[9];
-    jacobian_of_sums({d.x(), d.y(), d.z(), 0, 1}, sums, low);
-    jacobian_of_sums({d.x(), d.y(), d.z(), 0, 1}, sums + kernels::row_width, high);
+    kernels::jacobian_of_sums({d.x(), d.y(), d.z(), 0, 1}, sums, low);
+    kernels::jacobian_of_sums({d.x(), d.y(), d.z(), 0, 1}, sums + kernels::row_width, high);
     for (int i = 0; i < 9; ++i)
       result.gradient(i / 3, i % 3) += high[i] - low[i];
     result.loss += loss;

@@ -12,7 +12,7 @@ namespace ltc {
 
 struct FitWorkspace {
   TargetSamples target;
-  TargetQuantiles coarse_quantiles, fine_quantiles;
+  TargetQuantiles quantiles;
   ModelWorkspace model;
   // Of the stochastic descent.
   TargetLattice lattice;

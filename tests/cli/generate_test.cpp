@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
-
-#include "support/program.h"
+#include "support/refused_run.h"
 
 namespace ltc::test {
 namespace {
@@ -25,27 +23,6 @@ std::vector<std::string> generate(std::vector<std::string> more, bool small = tr
     arguments.insert(arguments.end(), tiny.begin(), tiny.end());
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
-}
-
-// One line on standard error with all the parts, the exit code, and nothing else said.
-void expect_error(const ProgramResult& result, int exit_code,
-                  const std::vector<std::string>& parts) {
-  EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  EXPECT_EQ(result.out, "");
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_TRUE(result.err.starts_with("ltcfit: ")) << result.err;
-  EXPECT_TRUE(result.err.ends_with('\n')) << result.err;
-  for (const std::string& part : parts)
-    EXPECT_NE(result.err.find(part), std::string::npos)
-        << '"' << part << "\" is not in: " << result.err;
-}
-
-// Runs in an empty folder, where the default output folder would appear; nothing must.
-void expect_refused(const std::vector<std::string>& arguments, int exit_code,
-                    const std::vector<std::string>& parts) {
-  const TemporaryDirectory folder;
-  expect_error(run_ltcfit(arguments, folder.path()), exit_code, parts);
-  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{});
 }
 
 // ---- What it writes ----
@@ -133,7 +110,7 @@ TEST(GenerateBadInput, MissingConfig) {
 
 TEST(GenerateBadInput, UnreadableConfig) {
   // A folder: unreadable as a file even to root.
-  expect_refused(generate({"--config", "/"}), 3, {"config /", "folder", "TOML file"});
+  expect_refused(generate({"--config", "/"}), 3, {"config /: ", "folder", "expected a file"});
 }
 
 TEST(GenerateBadInput, OutputThatIsAFile) {

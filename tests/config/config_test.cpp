@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <toml++/toml.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "core/error.h"
@@ -78,7 +79,10 @@ TEST(Config, EveryKeyChangesTheTextAndReadsBack) {
     const Config changed = load({key.name + "=" + value});
     EXPECT_NE(to_toml(changed), to_toml(Config{}));
     EXPECT_EQ(to_toml(load_text(to_toml(changed))), to_toml(changed));
-    if (!key.name.starts_with("output.") || key.name == "output.name")
+    // No files at all, and lattices of rejected samples, are refused together only.
+    const bool goes_with_all = (!key.name.starts_with("output.") || key.name == "output.name") &&
+                               key.name != "fit.sgd.lattice_samples";
+    if (goes_with_all)
       all.push_back(key.name + "=" + value);
   }
   const Config changed = load(all);
@@ -162,6 +166,11 @@ TEST(Config, KeysThatDoNotGoTogetherAreRefused) {
     load({"output.hdf5=false", "output.exr=false", "output.npy=false"});
   });
   EXPECT_NE(message.find("at least one true"), std::string::npos) << message;
+  const std::string lattice = message_of<InputError>([] {
+    load({"fit.target=rejection", "fit.sgd.lattice_samples=true"});
+  });
+  test::expect_one_line(lattice, {"--set: fit.sgd.lattice_samples = true",
+                                  "fit.target = \"rejection\"", "\"weighted\""});
 }
 
 TEST(Config, OverridesNeedAnEqualsSign) {
@@ -232,7 +241,71 @@ TEST(ShippedConfigs, PaperIsAsPublished) {
   EXPECT_EQ(paper.fit.sgd.learning_rate, 1.0);
   EXPECT_EQ(paper.fit.sgd.step_scale, 0.1);
   EXPECT_EQ(paper.fit.sgd.step_decay, 0.999);
+  EXPECT_EQ(paper.fit.sgd.averaged_steps, 1);
+  EXPECT_EQ(paper.fit.sgd.start, StartKind::identity);
   EXPECT_FALSE(paper.fit.sgd.scaled_variables);
+  EXPECT_FALSE(paper.fit.sgd.lattice_samples);
+  // "below some 3000 the step size has not died away": to a twentieth by then.
+  EXPECT_NEAR(std::pow(paper.fit.sgd.step_decay, 3000), 0.05, 0.001);
+}
+
+TEST(ShippedConfigs, SgdIsAsItsCommentsSay) {
+  const Config sgd = load_config(shipped("sgd.toml"), {});
+  EXPECT_TRUE(sgd.grid == Grid::paper());
+  EXPECT_EQ(sgd.fit.solver, SolverKind::sgd);
+  EXPECT_EQ(sgd.fit.target, TargetKind::weighted);
+  EXPECT_EQ(sgd.fit.sgd.start, StartKind::moments);
+  EXPECT_TRUE(sgd.fit.sgd.scaled_variables);
+  EXPECT_TRUE(sgd.fit.sgd.lattice_samples);
+  // "the noise dies away within the steps above": the last step is 0.002 of the first.
+  EXPECT_NEAR(std::pow(sgd.fit.sgd.step_decay, sgd.fit.sgd.steps), 0.002, 0.0005);
+  EXPECT_GT(sgd.fit.sgd.averaged_steps, 1);
+  EXPECT_LT(sgd.fit.sgd.averaged_steps, sgd.fit.sgd.steps / 10);
+  // "a minute or two instead of hours": a five-hundredth of the paper's samples and more.
+  const Config paper = load_config(shipped("paper.toml"), {});
+  const auto work = [](const SgdSettings& settings) {
+    return 1.0 * settings.steps * settings.samples * settings.directions;
+  };
+  EXPECT_LT(500 * work(sgd.fit.sgd), work(paper.fit.sgd));
+}
+
+TEST(ShippedConfigs, ReferenceSpendsMoreOnEverythingThanTheDefault) {
+  const Config reference = load_config(shipped("reference.toml"), {});
+  EXPECT_TRUE(reference.grid == Grid::paper());
+  EXPECT_EQ(reference.fit.solver, SolverKind::gauss_newton);
+  EXPECT_EQ(reference.fit.target, TargetKind::weighted);
+  const GaussNewtonSettings more = reference.fit.gauss_newton, less;
+  EXPECT_GT(more.coarse_samples, less.coarse_samples);
+  EXPECT_GT(more.coarse_directions, less.coarse_directions);
+  EXPECT_GT(more.coarse_steps, less.coarse_steps);
+  EXPECT_LT(more.coarse_tolerance, less.coarse_tolerance);
+  EXPECT_GT(more.samples, less.samples);
+  EXPECT_GT(more.directions, less.directions);
+  EXPECT_GT(more.steps, less.steps);
+  EXPECT_LT(more.tolerance, less.tolerance);
+  EXPECT_GT(more.target_samples, less.target_samples);
+  EXPECT_GT(more.starts, less.starts);
+  EXPECT_GT(more.neighbour_sweeps, less.neighbour_sweeps);
+}
+
+// "What is not said here is as in config/default.toml."
+TEST(ShippedConfigs, WhatTheyDoNotSayIsTheDefault) {
+  const toml::table defaults = toml::parse(to_toml(Config{}));
+  for (const char* name : {"paper.toml", "sgd.toml", "reference.toml"}) {
+    const toml::table said = toml::parse_file(shipped(name).string());
+    const toml::table effective = toml::parse(to_toml(load_config(shipped(name), {})));
+    int differ = 0;
+    for (const ConfigKey& key : config_keys()) {
+      toml::table a, b;
+      a.insert("value", *effective.at_path(key.name).node());
+      b.insert("value", *defaults.at_path(key.name).node());
+      if (a == b)
+        continue;
+      ++differ;
+      EXPECT_TRUE(said.at_path(key.name)) << key.name << " of " << name;
+    }
+    EXPECT_GT(differ, 0) << name;
+  }
 }
 
 TEST(ShippedConfigs, AllOfThemLoad) {

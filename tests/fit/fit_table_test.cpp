@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 #include <cstring>
+#include <iostream>
 #include <set>
 
 namespace ltc {
@@ -69,14 +70,19 @@ TEST(FitTable, HasTheSameBitsForAnyNumberOfThreads) {
     }
 }
 
-TEST(FitTable, EveryEntryIsFittedOrCopied) {
+TEST(FitTable, EveryEntryIsFittedOrAnalyticOrCopied) {
   const Grid grid = Grid::paper(3);
   const std::vector<FittedEntry> entries = fit_table(grid, quick_settings(), 2, nullptr);
   const std::vector<PlannedEntry> plan = plan_by_symmetry(grid);
   ASSERT_EQ(entries.size(), grid.size());
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
-    EXPECT_EQ(entries[flat].status,
-              plan[flat].representative == flat ? Status::fitted : Status::copied);
+    // The first-order matrix is exact where alpha is far below cos^2 theta: here at alpha_min, seen
+    // at 0 and 45 degrees, not at 89.991.
+    const NodeIndex node = grid.node(flat);
+    const bool exact = node.alpha == 0 && node.theta < 2;
+    const Status own = exact ? Status::analytic : Status::fitted;
+    EXPECT_EQ(entries[flat].status, plan[flat].representative == flat ? own : Status::copied)
+        << flat;
     EXPECT_TRUE(entries[flat].matrix.allFinite());
     EXPECT_GT(entries[flat].matrix.determinant(), 0);
     EXPECT_EQ(entries[flat].matrix,
@@ -88,6 +94,10 @@ TEST(FitTable, EveryEntryIsFittedOrCopied) {
 TEST(FitTable, SweepsMakeNoEntryWorse) {
   const Grid grid = Grid::paper(3);
   FitSettings settings = quick_settings();
+  // Fits that end early, so that there is something to improve.
+  settings.gauss_newton.starts = 1;
+  settings.gauss_newton.coarse_steps = 3;
+  settings.gauss_newton.steps = 1;
   std::vector<FittedEntry> before = fit_table(grid, settings, 2, nullptr);
   int improved = 0;
   for (int sweeps = 1; sweeps <= 2; ++sweeps) {
@@ -100,6 +110,7 @@ TEST(FitTable, SweepsMakeNoEntryWorse) {
     }
     before = after;
   }
+  std::cout << "improved " << improved << "\n";
   EXPECT_GT(improved, 0);
 }
 

@@ -21,6 +21,11 @@ namespace ltc::test {
 // The last node of the paper's theta axis.
 inline constexpr double kGrazing = 0.9999 * std::numbers::pi / 2;
 
+// Moves the azimuths of a target's lattice and leaves its heights in the middle of their strata.
+// Where they stand at the upper end, the outermost of n samples is several times as far out, and
+// its share of the loss of a sharp lobe, whose tails fall as 1/r^3, is as large as the rest.
+inline constexpr double kMiddleShift = 1 / std::numbers::sqrt2;
+
 // Where a fit is an ordinary problem: no roughness near zero, no grazing view.
 inline std::vector<GgxLobe> ordinary_lobes() {
   return {{0.5, 0.5, 0.0, 0.0}, {0.8, 0.3, 0.6, 0.4}, {0.3, 0.1, 1.0, 1.2}, {1.0, 0.9, 1.2, 0.8}};

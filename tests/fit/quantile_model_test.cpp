@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 #include "fit/lobes.h"
 #include "fit/starting_points.h"
@@ -20,7 +21,7 @@ namespace {
 // The default's fine phase: 1024 samples, 32 directions, 64 bins, 4096 target samples.
 struct Model {
   explicit Model(const GgxLobe& lobe) : frame(lobe) {
-    sample_weighted_target(frame, make_target_lattice(4096, 0.3), samples);
+    sample_weighted_target(frame, make_target_lattice(4096, test::kMiddleShift), samples);
     quantiles.build(samples, test::in_float(directions), 64, workspace.xi, workspace.bins);
   }
 
@@ -74,6 +75,7 @@ TEST(QuantileModel, LossAgreesWithTheSortedLoss) {
       const double binned = model(p, 0.05 * exact).loss;
       // Blocks lose what cancels inside them. Measured: -0.5 % on ordinary lobes; -6.3 % at alpha
       // 1e-4 and 1e-6, where the bins, placed by the target's deviation, are too wide for its core.
+      std::cout << "binned " << binned / exact << " " << test::describe(lobe) << "\n";
       EXPECT_NEAR(binned / exact, 1, 0.08) << test::describe(lobe);
     }
   }
@@ -93,6 +95,8 @@ TEST(QuantileModel, GradientAgreesWithTheReference) {
       const double cosine = expected.dot(found) / (expected.norm() * found.norm());
       // Measured: cosines above 0.9988 but for 0.989 at alpha 1 and a grazing view; lengths within
       // 7 %, at roughness 1e-4 and less within 14 %.
+      std::cout << "gradient " << cosine << " " << found.norm() / expected.norm() << " "
+                << test::describe(lobe) << " " << column << "\n";
       EXPECT_GT(cosine, 0.95) << test::describe(lobe) << " column " << column;
       EXPECT_NEAR(found.norm() / expected.norm(), 1, 0.2)
           << test::describe(lobe) << " column " << column;
