@@ -6,12 +6,15 @@ namespace ltc::cli {
 
 // One a file of the same name.
 Action declare_generate(CLI::App& app);
+Action declare_fit(CLI::App& app);
 Action declare_diff(CLI::App& app);
 
 std::span<const Command> commands() {
   static constexpr Command all[] = {
       {"generate", "Make a table", "fit a table and write it as HDF5, OpenEXR and NPY",
        declare_generate},
+      {"fit", "Look into one lobe",
+       "fit one entry or lobe and show every step, matrix and loss, and a picture", declare_fit},
       {"diff", "Compare and validate tables",
        "tell which of two tables is nearer to GGX, and where", declare_diff},
   };

@@ -130,7 +130,10 @@ void generate(const Arguments& arguments) {
 
   report.seconds = seconds_since(began);
   report.peak_memory_bytes = platform::peak_memory_bytes();
-  report.debug_command = "ltcfit fit" + arguments.config.as_text() + " --entry";
+  report.debug_command = "ltcfit fit" + arguments.config.as_text();
+  if (!arguments.scene.empty())
+    report.debug_command += " --scene " + shell_quoted(arguments.scene);
+  report.debug_command += " --entry";
   print(summary_text(table, report));
 }
 

@@ -20,48 +20,17 @@ Eigen::Matrix3d rounded_to_symmetry(const GgxLobe& lobe, Eigen::Matrix3d matrix)
   return matrix;
 }
 
-void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
-               FittedEntry& entry) {
-  const FitResult result = solver.fit(request, workspace, nullptr);
-  entry.steps += result.steps;
-  if (request.incumbent && result.matrix == request.incumbent->matrix)
-    return;
-  if (result.outcome == FitOutcome::non_finite) {
-    entry.status = Status::failed;
-    entry.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
-    entry.loss = std::numeric_limits<double>::quiet_NaN();
-    return;
-  }
-  entry.status = result.outcome == FitOutcome::analytic ? Status::analytic : Status::fitted;
-  entry.matrix = rounded_to_symmetry(request.lobe, result.matrix);
-  entry.loss = result.loss;
-}
-
 // The solutions of an entry's neighbours along the four axes, carried over into its own frame: what
 // changes slowly from node to node is P, not M.
 std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat,
                                               const std::vector<FittedEntry>& entries) {
   std::vector<Eigen::Matrix3d> starts;
-  const NodeIndex node = grid.node(flat);
-  const LobeFrame frame(grid.lobe(node));
-  const auto add = [&](const NodeIndex& neighbour) {
-    const FittedEntry& entry = entries[grid.flat(neighbour)];
+  const LobeFrame frame(grid.lobe(grid.node(flat)));
+  for (const std::size_t neighbour : neighbours_of(grid, flat)) {
+    const FittedEntry& entry = entries[neighbour];
     if (has_values(entry.status))
-      starts.push_back(frame.to_matrix(LobeFrame(grid.lobe(neighbour)).from_matrix(entry.matrix)));
-  };
-  const auto shape = grid.shape();
-  const std::array<std::size_t NodeIndex::*, 4> axes = {&NodeIndex::alpha, &NodeIndex::lambda,
-                                                        &NodeIndex::theta, &NodeIndex::phi};
-  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-    NodeIndex neighbour = node;
-    if (node.*axes[axis] > 0) {
-      neighbour.*axes[axis] = node.*axes[axis] - 1;
-      add(neighbour);
-    }
-    if (node.*axes[axis] + 1 < shape[axis]) {
-      neighbour.*axes[axis] = node.*axes[axis] + 1;
-      add(neighbour);
-    }
+      starts.push_back(
+          frame.to_matrix(LobeFrame(grid.lobe(grid.node(neighbour))).from_matrix(entry.matrix)));
   }
   return starts;
 }
@@ -77,7 +46,53 @@ void copy_by_symmetry(const std::vector<PlannedEntry>& plan, std::vector<FittedE
   }
 }
 
+// Steps of the watched entry go to its watch, those of the others nowhere.
+std::vector<FitStep>* trace_of(FitWatch* watch, std::size_t flat) {
+  return watch && watch->entry == flat ? &watch->fits.back().steps : nullptr;
+}
+
 }  // namespace
+
+int sweep_count(const FitSettings& settings) {
+  return settings.solver == SolverKind::gauss_newton ? settings.gauss_newton.neighbour_sweeps : 0;
+}
+
+std::vector<std::size_t> neighbours_of(const Grid& grid, std::size_t flat) {
+  std::vector<std::size_t> neighbours;
+  const NodeIndex node = grid.node(flat);
+  const auto shape = grid.shape();
+  const std::array<std::size_t NodeIndex::*, 4> axes = {&NodeIndex::alpha, &NodeIndex::lambda,
+                                                        &NodeIndex::theta, &NodeIndex::phi};
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    NodeIndex neighbour = node;
+    if (node.*axes[axis] > 0) {
+      neighbour.*axes[axis] = node.*axes[axis] - 1;
+      neighbours.push_back(grid.flat(neighbour));
+    }
+    if (node.*axes[axis] + 1 < shape[axis]) {
+      neighbour.*axes[axis] = node.*axes[axis] + 1;
+      neighbours.push_back(grid.flat(neighbour));
+    }
+  }
+  return neighbours;
+}
+
+void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
+               std::vector<FitStep>* trace, FittedEntry& entry) {
+  const FitResult result = solver.fit(request, workspace, trace);
+  entry.steps += result.steps;
+  if (request.incumbent && result.matrix == request.incumbent->matrix)
+    return;
+  if (result.outcome == FitOutcome::non_finite) {
+    entry.status = Status::failed;
+    entry.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
+    entry.loss = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  entry.status = result.outcome == FitOutcome::analytic ? Status::analytic : Status::fitted;
+  entry.matrix = rounded_to_symmetry(request.lobe, result.matrix);
+  entry.loss = result.loss;
+}
 
 std::uint64_t entry_seed(std::uint64_t seed, std::size_t representative) {
   // SplitMix64's finaliser (Steele, Lea and Flood 2014): neighbouring entries get unrelated seeds.
@@ -93,8 +108,8 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
 }
 
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
-                                   const std::vector<bool>& needed, int threads,
-                                   Progress* progress) {
+                                   const std::vector<bool>& needed, int threads, Progress* progress,
+                                   FitWatch* watch) {
   const std::unique_ptr<Solver> solver = make_solver(settings);
   const std::vector<PlannedEntry> whole_plan = plan_by_symmetry(grid);
   const std::vector<PlannedEntry> plan = plan_by_symmetry(grid, needed);
@@ -110,7 +125,8 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
     parallel_for_each<FitWorkspacePointer>(
         stage, to_fit.size(), threads, progress, make_fit_workspace,
         [&](std::size_t i, FitWorkspacePointer& workspace) {
-          fit_entry(*solver, request(to_fit[i]), *workspace, results[to_fit[i]]);
+          const std::size_t flat = to_fit[i];
+          fit_entry(*solver, request(flat), *workspace, trace_of(watch, flat), results[flat]);
         });
     copy_by_symmetry(plan, results);
   };
@@ -121,13 +137,17 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
                       {},
                       progress};
   };
+  if (watch)
+    watch->fits.assign(1, {});
   fit_all("fit", plain_request, entries);
   // Nothing that samples could tell is better than a closed form.
   std::erase_if(to_fit, [&](std::size_t flat) { return entries[flat].status == Status::analytic; });
-  const int sweeps =
-      settings.solver == SolverKind::gauss_newton ? settings.gauss_newton.neighbour_sweeps : 0;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  const bool watching = watch && entries[watch->entry].status != Status::analytic;
+  for (int sweep = 1; sweep <= sweep_count(settings); ++sweep) {
     std::vector<FittedEntry> improved = entries;
+    if (watching)
+      watch->fits.push_back(
+          {sweep, neighbour_starts(grid, watch->entry, entries).size(), {}, false});
     fit_all(
         "sweep",
         [&](std::size_t flat) {
@@ -139,6 +159,8 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
           return request;
         },
         improved);
+    if (watching)
+      watch->fits.back().improved = improved[watch->entry].loss < entries[watch->entry].loss;
     entries = std::move(improved);
   }
   return entries;

@@ -22,18 +22,42 @@ struct FittedEntry {
   Status status = Status::skipped;
 };
 
+// One fit of an entry, for those who want to watch: its own, then one for every sweep.
+struct WatchedFit {
+  int sweep = 0;               // 0 for the entry's own fit
+  std::size_t neighbours = 0;  // whose solutions the sweep had to offer
+  std::vector<FitStep> steps;  // none where a sweep's offers promised nothing
+  bool improved = true;        // whether the entry took the result
+};
+struct FitWatch {
+  std::size_t entry = 0;  // flat index; one that is fitted, not copied
+  std::vector<WatchedFit> fits;
+};
+
 // One entry a node of `grid`, in its order; those that are not `needed` stay skipped. Entries that
 // share a lobe with another are copied, and turned where need be, from it. With sweeps, every
 // fitted entry then tries its grid neighbours' solutions as starts and keeps the better one; all
 // entries of a sweep see the same state, so that neither order nor the number of threads matters.
-// Throws Interrupted when `progress` (which may be null) asks for a stop.
+// Throws Interrupted when `progress` (which may be null) asks for a stop. `watch`, where not null,
+// gets the steps of its entry.
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
-                                   const std::vector<bool>& needed, int threads,
-                                   Progress* progress);
+                                   const std::vector<bool>& needed, int threads, Progress* progress,
+                                   FitWatch* watch = nullptr);
 
 // All of them.
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings, int threads,
                                    Progress* progress);
+
+// How many sweeps the settings ask for: none but with the solver that has them.
+int sweep_count(const FitSettings& settings);
+
+// The entries that share a face with this one: up to two along each axis.
+std::vector<std::size_t> neighbours_of(const Grid& grid, std::size_t flat);
+
+// What every entry of a table goes through: fits the request's lobe and stores the result, its
+// steps added to those that `entry` has. `trace` may be null.
+void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
+               std::vector<FitStep>* trace, FittedEntry& entry);
 
 // The seed of everything random about one entry's fit; `representative` is that of the whole grid's
 // plan, so that an entry is fitted alike whatever else is needed.

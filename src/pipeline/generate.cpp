@@ -12,8 +12,7 @@
 #include "core/platform.h"
 #include "core/version.h"
 #include "fit/fit_table.h"
-#include "postprocess/normalise.h"
-#include "postprocess/symmetry.h"
+#include "pipeline/post_process.h"
 
 namespace ltc {
 namespace {
@@ -38,10 +37,10 @@ void align_all(std::vector<FittedEntry>& entries, int threads, Progress* progres
                              });
 }
 
-// Equation (16) and unit third columns, and from M to what the table stores. At theta = 0 all phi
-// share one lobe; their matrices are made the same bits here.
-void post_process(const Grid& grid, const std::vector<FittedEntry>& entries, Table& table,
-                  GenerateReport& report) {
+// From aligned matrices to the table. At theta = 0 all phi share one lobe; their matrices are made
+// the same bits here.
+void post_process_all(const Grid& grid, const std::vector<FittedEntry>& entries, Table& table,
+                      GenerateReport& report) {
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
     const FittedEntry& entry = entries[flat];
     table.status[flat] = entry.status;
@@ -49,14 +48,13 @@ void post_process(const Grid& grid, const std::vector<FittedEntry>& entries, Tab
         std::min(entry.steps, static_cast<int>(std::numeric_limits<std::uint16_t>::max())));
     if (!has_values(entry.status))
       continue;
-    const GgxLobe lobe = grid.lobe(grid.node(flat));
-    Eigen::Matrix3d matrix = entry.matrix;
-    const double zeroed = enforce_symmetry(lobe.theta_radians, lobe.phi_radians, matrix);
-    if (zeroed > report.largest_zeroed) {
-      report.largest_zeroed = zeroed;
+    const PostProcessed finished =
+        post_process(grid.lobe(grid.node(flat)), table.storage, entry.matrix);
+    if (finished.zeroed > report.largest_zeroed) {
+      report.largest_zeroed = finished.zeroed;
       report.largest_zeroed_entry = flat;
     }
-    table.set_stored(flat, normalise(stored_from_matrix(table.storage, matrix, lobe)));
+    table.set_stored(flat, finished.stored);
     table.sw_loss[flat] = static_cast<float>(entry.loss);
   }
 }
@@ -113,7 +111,7 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
   finish_stage("fit");
   align_all(entries, threads, progress);
   finish_stage("align");
-  post_process(config.grid, entries, table, result);
+  post_process_all(config.grid, entries, table, result);
   finish_stage("post-process");
   integrate_albedos(config.grid, needed, threads, progress, table);
   finish_stage("albedo");

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// ltcfit fit: one lobe through the pipeline, every step shown.
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/fit_report.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/output.h"
+#include "core/angle.h"
+#include "core/error.h"
+#include "core/platform.h"
+#include "core/progress.h"
+#include "export/reader.h"
+#include "fit/symmetry_plan.h"
+#include "scene/coverage.h"
+#include "scene/scene.h"
+#include "table/lookup.h"
+#include "validate/lobe_picture.h"
+
+namespace ltc::cli {
+namespace {
+
+// One lobe is done before a bar would be read; only the wish to stop matters.
+class StopOnly final : public Progress {
+ public:
+  void begin_stage(std::string_view, std::size_t) override { reset_done(); }
+  void end_stage() override {}
+};
+
+struct Arguments {
+  ConfigArguments config;
+  std::string scene;  // empty: the whole table
+  std::string entry;  // empty: the lobe is named by its parameters
+  std::optional<double> alpha_x, alpha_y, theta_degrees, phi_degrees;
+  std::string solver, seed, samples;  // empty: the config's
+  std::string start;                  // empty: the solver's own
+  std::string trace, plot;            // empty: none
+  bool json = false;
+  bool check_gradient = false;
+  int threads = default_threads();
+};
+
+// --solver, --seed and --samples are keys of the config by a shorter name.
+Config load(const Arguments& arguments) {
+  ConfigArguments all = arguments.config;
+  if (!arguments.solver.empty())
+    all.overrides.push_back("fit.solver=" + arguments.solver);
+  if (!arguments.seed.empty())
+    all.overrides.push_back("fit.seed=" + arguments.seed);
+  if (!arguments.samples.empty()) {
+    const bool sgd = all.load().fit.solver == SolverKind::sgd;
+    all.overrides.push_back((sgd ? "fit.sgd.samples=" : "fit.gauss_newton.samples=") +
+                            arguments.samples);
+  }
+  return all.load();
+}
+
+std::size_t parse_entry(const std::string& text, const Grid& grid) {
+  const auto shape = grid.shape();
+  std::array<std::size_t, 4> indices{};
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  bool good = true;
+  for (std::size_t axis = 0; axis < 4 && good; ++axis) {
+    const auto [stop, error] = std::from_chars(at, end, indices[axis]);
+    good = error == std::errc() && indices[axis] < shape[axis] &&
+           (axis < 3 ? stop != end && *stop == ',' : stop == end);
+    at = stop + (axis < 3 && good);
+  }
+  if (!good)
+    throw InputError(
+        fmt::format("--entry {}: expected ALPHA,LAMBDA,THETA,PHI, indices from 0 to {},{},{},{}",
+                    shell_quoted(text), shape[0] - 1, shape[1] - 1, shape[2] - 1, shape[3] - 1));
+  return grid.flat({indices[0], indices[1], indices[2], indices[3]});
+}
+
+double require_in(const char* option, double value, bool allowed, const char* expected) {
+  if (!allowed)
+    throw InputError(fmt::format("{} {}: expected {}", option, value, expected));
+  return value;
+}
+
+bool names_parameters(const Arguments& arguments) {
+  return arguments.alpha_x || arguments.alpha_y || arguments.theta_degrees || arguments.phi_degrees;
+}
+
+GgxLobe parse_lobe(const Arguments& arguments) {
+  const std::array<std::pair<const char*, std::optional<double>>, 4> parameters = {
+      {{"--alpha-x", arguments.alpha_x},
+       {"--alpha-y", arguments.alpha_y},
+       {"--theta", arguments.theta_degrees},
+       {"--phi", arguments.phi_degrees}}};
+  for (const auto& [option, value] : parameters)
+    if (!value)
+      throw InputError(
+          fmt::format("{} is missing; a lobe is named by --alpha-x, --alpha-y, "
+                      "--theta and --phi together, or by --entry",
+                      option));
+  const auto roughness = [](const char* option, double alpha) {
+    return require_in(option, alpha, alpha >= 1e-6 && alpha <= 1, "a number in [1e-06, 1]");
+  };
+  const double theta = *arguments.theta_degrees, phi = *arguments.phi_degrees;
+  return {roughness("--alpha-x", *arguments.alpha_x), roughness("--alpha-y", *arguments.alpha_y),
+          radians_of_degrees(
+              require_in("--theta", theta, theta >= 0 && theta < 90, "degrees in [0, 90)")),
+          radians_of_degrees(
+              require_in("--phi", phi, phi >= -360 && phi <= 360, "degrees in [-360, 360]"))};
+}
+
+// M of --start; `entry` is that of the config's grid, where the lobe is one.
+Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const GgxLobe& lobe,
+                            std::optional<std::size_t> entry, std::uint64_t seed) {
+  constexpr std::string_view from = "from=";
+  if (text.starts_with(from)) {
+    const std::string file = text.substr(from.size());
+    const Table table = read_table(file);
+    Eigen::Matrix3d matrix =
+        entry && table.grid == config.grid ? table.matrix_at(*entry) : look_up(table, lobe).matrix;
+    if (!matrix.allFinite())
+      throw InputError(fmt::format("--start {}: the table has no values at this lobe", text));
+    if (matrix.determinant() < 0)
+      matrix.col(1) = -matrix.col(1);
+    return matrix;
+  }
+  for (const StartKind kind :
+       {StartKind::first_order, StartKind::moments, StartKind::identity, StartKind::random})
+    if (text == start_name(kind))
+      return starting_matrix(kind, lobe, seed);
+  throw InputError(
+      fmt::format("--start {}: expected first-order, moments, identity, random or from=TABLE.h5",
+                  shell_quoted(text)));
+}
+
+// The entry as its table has it, or the lobe by itself.
+FitReport run_fit(const Arguments& arguments, const Config& config, Progress& progress) {
+  FitReport report;
+  report.settings = config.fit;
+  report.storage = config.storage;
+  report.grid = config.grid;
+  report.start = arguments.start;
+  GgxLobe lobe;
+  std::size_t seed_index = 0;
+  if (arguments.entry.empty()) {
+    lobe = parse_lobe(arguments);
+  } else {
+    report.entry = parse_entry(arguments.entry, config.grid);
+    lobe = config.grid.lobe(config.grid.node(*report.entry));
+    seed_index = plan_by_symmetry(config.grid)[*report.entry].representative;
+  }
+  const std::uint64_t seed = entry_seed(config.fit.seed, seed_index);
+  if (!arguments.start.empty()) {
+    report.fit =
+        fit_lobe(config, lobe, seed, parse_start(arguments.start, config, lobe, report.entry, seed),
+                 &progress);
+  } else if (report.entry) {
+    const std::vector<bool> needed = arguments.scene.empty()
+                                         ? std::vector<bool>(config.grid.size(), true)
+                                         : needed_entries(load_scene(arguments.scene), config.grid);
+    if (!needed[*report.entry])
+      throw InputError(fmt::format("--entry {}: the scene {} does not need it", arguments.entry,
+                                   arguments.scene));
+    const std::size_t representative =
+        plan_by_symmetry(config.grid, needed)[*report.entry].representative;
+    if (representative != *report.entry)
+      report.representative = representative;
+    report.fit = fit_table_entry(config, needed, *report.entry, arguments.threads, &progress);
+  } else {
+    report.fit = fit_lobe(config, lobe, seed, std::nullopt, &progress);
+  }
+  return report;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  platform::write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream file(temporary);
+    file << text;
+    file.close();
+    if (!file)
+      throw IoError(fmt::format("cannot write {}", path));
+  });
+}
+
+void require_one_name(const Arguments& arguments) {
+  const bool by_entry = !arguments.entry.empty(), by_parameters = names_parameters(arguments);
+  if (by_entry && by_parameters)
+    throw InputError(
+        "a lobe is named by --entry or by --alpha-x, --alpha-y, --theta and --phi, not by both");
+  if (!by_entry && !by_parameters)
+    throw InputError("no lobe named; expected --entry, or --alpha-x, --alpha-y, --theta and --phi");
+  if (!arguments.scene.empty() && (!by_entry || !arguments.start.empty()))
+    throw InputError("--scene tells which table an --entry is of; it goes with no other start");
+}
+
+void fit(const Arguments& arguments) {
+  StopOnly progress;
+  const StopOnInterrupt stop_on_interrupt(progress);
+  require_one_name(arguments);
+  const Config config = load(arguments);
+  FitReport report = run_fit(arguments, config, progress);
+  if (arguments.check_gradient)
+    report.gradient = check_lobe_gradient(report.fit.lobe, report.fit.matrix);
+  if (!arguments.trace.empty())
+    write_text(arguments.trace, trace_csv(report));
+  if (!arguments.plot.empty())
+    render_lobe(lobe_panels(report.fit.lobe, report.fit.matrix, picture_words(report)),
+                loss_chart(report))
+        .write_png(arguments.plot);
+  print(arguments.json ? report_json(report) : report_text(report));
+  if (report.gradient && !report.gradient->passed)
+    throw CheckFailure("gradient check failed: " + report.gradient->describe());
+}
+
+void add_lobe_options(CLI::App& app, Arguments& arguments) {
+  constexpr const char* group = "Which lobe";
+  app.add_option("-e,--entry", arguments.entry,
+                 "entry of the config's table, fitted bit for bit as generate does: 3,0,7,4")
+      ->option_text("A,L,T,P")
+      ->group(group);
+  app.add_option("--scene", arguments.scene, "the scene that the table was made for [none]")
+      ->option_text("FILE")
+      ->group(group);
+  app.add_option("--alpha-x", arguments.alpha_x, "roughness along x, in [1e-06, 1]")
+      ->option_text("X")
+      ->group(group);
+  app.add_option("--alpha-y", arguments.alpha_y, "roughness along y, in [1e-06, 1]")
+      ->option_text("Y")
+      ->group(group);
+  app.add_option("--theta", arguments.theta_degrees,
+                 "angle between view and normal, degrees in [0, 90)")
+      ->option_text("DEGREES")
+      ->group(group);
+  app.add_option("--phi", arguments.phi_degrees, "azimuth of the view, degrees")
+      ->option_text("DEGREES")
+      ->group(group);
+}
+
+void add_fit_options(CLI::App& app, Arguments& arguments) {
+  constexpr const char* group = "How to fit";
+  app.add_option("--solver", arguments.solver, "gauss-newton or sgd [fit.solver]")
+      ->check([](const std::string& name) {
+        return std::string(name == "gauss-newton" || name == "sgd"
+                               ? ""
+                               : shell_quoted(name) +
+                                     " is not allowed; expected gauss-newton or sgd");
+      })
+      ->option_text("NAME")
+      ->group(group);
+  app.add_option("--seed", arguments.seed, "seed of everything random [fit.seed]")
+      ->option_text("N")
+      ->group(group);
+  app.add_option("--samples", arguments.samples, "cosine samples [fit.SOLVER.samples]")
+      ->option_text("N")
+      ->group(group);
+  app.add_option("--start", arguments.start,
+                 "first-order, moments, identity, random or from=TABLE.h5 [the solver's own]")
+      ->option_text("START")
+      ->group(group);
+  app.add_flag("--check-gradient", arguments.check_gradient,
+               "compare the loss's gradient with finite differences; exit 1 where it is wrong")
+      ->group(group);
+}
+
+void add_output_options(CLI::App& app, Arguments& arguments) {
+  constexpr const char* group = "What to write";
+  app.add_flag("--json", arguments.json, "print JSON instead of text")->group(group);
+  app.add_option("--trace", arguments.trace, "write every step to this file, as CSV [none]")
+      ->option_text("FILE")
+      ->group(group);
+  app.add_option("--plot", arguments.plot,
+                 "draw GGX, LTC and their difference into this file, as PNG [none]")
+      ->option_text("FILE")
+      ->group(group);
+}
+
+}  // namespace
+
+Action declare_fit(CLI::App& app) {
+  const auto arguments = std::make_shared<Arguments>();
+  add_lobe_options(app, *arguments);
+  add_config_options(app, arguments->config);
+  add_fit_options(app, *arguments);
+  add_output_options(app, *arguments);
+  add_threads_option(app, arguments->threads);
+  return [arguments] { fit(*arguments); };
+}
+
+}  // namespace ltc::cli

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/fit_report.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cli/entry_text.h"
+#include "core/angle.h"
+
+namespace ltc::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A step with the name of the phase that it belongs to and its number there, from 1.
+struct NamedStep {
+  std::string phase;
+  std::size_t number;
+  FitStep step;
+};
+
+// In the order of starting_points.h, as Gauss-Newton tries them.
+std::string own_start_name(int start) {
+  constexpr std::array<const char*, 3> names = {"moments", "first-order", "identity"};
+  return start < 3 ? names[static_cast<std::size_t>(start)] : fmt::format("random {}", start - 2);
+}
+
+std::string phase_name(const FitReport& report, const WatchedFit& fit, const FitStep& step) {
+  if (report.settings.solver == SolverKind::sgd)
+    return "descent";
+  const std::string sweep = fit.sweep > 0 ? fmt::format("sweep {} ", fit.sweep) : "";
+  const int starts =
+      fit.sweep == 0 && report.start.empty() ? report.settings.gauss_newton.starts : 1;
+  if (step.start >= starts)
+    return sweep + fmt::format("fine {}", step.start - starts + 1);
+  if (fit.sweep > 0)
+    return sweep + "coarse";
+  if (report.start.empty())
+    return "coarse " + own_start_name(step.start);
+  return "coarse " + (report.start.starts_with("from=") ? "from table" : report.start);
+}
+
+std::vector<NamedStep> named_steps(const FitReport& report) {
+  std::vector<NamedStep> steps;
+  for (const WatchedFit& fit : report.fit.fits)
+    for (const FitStep& step : fit.steps) {
+      const std::string phase = phase_name(report, fit, step);
+      const bool same = !steps.empty() && steps.back().phase == phase;
+      steps.push_back({phase, same ? steps.back().number + 1 : 1, step});
+    }
+  return steps;
+}
+
+double condition_number(const Eigen::Matrix3d& matrix) {
+  if (!matrix.allFinite())
+    return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Vector3d values = matrix.jacobiSvd().singularValues();
+  return values[0] / values[2];
+}
+
+double degrees(double radians) {
+  return radians / radians_per_degree;
+}
+
+std::string lobe_line(const GgxLobe& lobe) {
+  return fmt::format("alpha_x {:.6g}, alpha_y {:.6g}, theta {:.6g}, phi {:.6g}", lobe.alpha_x,
+                     lobe.alpha_y, degrees(lobe.theta_radians), degrees(lobe.phi_radians));
+}
+
+std::string status_word(Status status) {
+  constexpr std::array<const char*, 5> words = {"skipped", "fitted", "copied", "analytic",
+                                                "failed"};
+  return words.at(static_cast<std::size_t>(status));
+}
+
+std::string status_text(const FitReport& report) {
+  std::string text = status_word(report.fit.fitted.status);
+  if (report.representative)
+    text += fmt::format(" by symmetry from {}, whose fit this is",
+                        entry_text(report.grid, *report.representative));
+  else if (report.fit.fitted.status == Status::analytic)
+    text += ": the closed form is exact to more digits than samples could tell";
+  return text;
+}
+
+std::string start_text(const FitReport& report) {
+  if (!report.start.empty())
+    return report.start;
+  if (report.settings.solver == SolverKind::sgd)
+    return std::string(start_name(report.settings.sgd.start));
+  std::string text;
+  for (int start = 0; start < report.settings.gauss_newton.starts; ++start)
+    text += (text.empty() ? "" : ", ") + own_start_name(start);
+  for (const WatchedFit& fit : report.fit.fits)
+    if (fit.sweep > 0)
+      text += fmt::format("; sweep {}: {} neighbours, {}", fit.sweep, fit.neighbours,
+                          fit.improved ? "one was better" : "none was better");
+  return text;
+}
+
+// At most so many steps are printed; the trace has them all.
+constexpr std::size_t most_printed = 60;
+
+std::string steps_text(const FitReport& report) {
+  const std::vector<NamedStep> steps = named_steps(report);
+  if (steps.empty())
+    return "steps    none\n";
+  std::string text = fmt::format(
+      "steps    {:<18} {:>6} {:>12} {:>12} {:>10} {:>10}\n", "phase", "step", "loss", "gradient",
+      report.settings.solver == SolverKind::sgd ? "step size" : "damping", "time/ms");
+  const std::size_t every = (steps.size() + most_printed - 1) / most_printed;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto& [phase, number, step] = steps[i];
+    if (i % every == 0 || i + 1 == steps.size())
+      text += fmt::format("         {:<18} {:>6} {:>12.5e} {:>12.4e} {:>10.2e} {:>10.3f}{}\n",
+                          phase, number, step.loss, step.gradient_norm, step.damping,
+                          1e3 * step.seconds, step.accepted ? "" : "  not taken");
+  }
+  if (every > 1)
+    text += fmt::format("         one of {} steps; --trace writes all {}\n", every, steps.size());
+  return text;
+}
+
+std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix) {
+  std::string text;
+  for (int row = 0; row < 3; ++row)
+    text += fmt::format("{:<9}{:>16.8e} {:>16.8e} {:>16.8e}\n", row == 0 ? name : "",
+                        matrix(row, 0), matrix(row, 1), matrix(row, 2));
+  return text + fmt::format("{:<9}determinant {:.4e}, condition number {:.4e}\n", "",
+                            matrix.determinant(), condition_number(matrix));
+}
+
+std::string loss_text(const LobeFit& fit) {
+  return fmt::format("{:.4e} held out, {:.3g} % of the lobe's spread {:.4e}", fit.held_out_loss,
+                     100 * fit.held_out_loss / fit.spread, fit.spread);
+}
+
+std::string solver_name(SolverKind solver) {
+  return solver == SolverKind::sgd ? "sgd" : "gauss-newton";
+}
+
+Json json_of(const Eigen::Matrix3d& matrix) {
+  Json rows = Json::array();
+  for (int row = 0; row < 3; ++row)
+    rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2)});
+  return rows;
+}
+
+Json json_of(const FitReport& report, const std::vector<NamedStep>& steps) {
+  Json all = Json::array();
+  for (const auto& [phase, number, step] : steps)
+    all.push_back(
+        {{"phase", phase},
+         {"step", number},
+         {"loss", step.loss},
+         {"gradient_norm", step.gradient_norm},
+         {report.settings.solver == SolverKind::sgd ? "step_size" : "damping", step.damping},
+         {"seconds", step.seconds},
+         {"accepted", step.accepted}});
+  return all;
+}
+
+}  // namespace
+
+std::string_view start_name(StartKind kind) {
+  switch (kind) {
+    case StartKind::first_order:
+      return "first-order";
+    case StartKind::moments:
+      return "moments";
+    case StartKind::identity:
+      return "identity";
+    case StartKind::random:
+      return "random";
+  }
+  return "unknown";
+}
+
+std::string report_text(const FitReport& report) {
+  const LobeFit& fit = report.fit;
+  std::string text = fmt::format("lobe     {} (degrees)\n", lobe_line(fit.lobe));
+  if (report.entry)
+    text += fmt::format("entry    {}: {}\n", entry_text(report.grid, *report.entry),
+                        lobe_text(report.grid, *report.entry));
+  text += fmt::format("solver   {}, seed {}\n", solver_name(report.settings.solver),
+                      report.settings.seed);
+  text += fmt::format("status   {}\n", status_text(report));
+  text += fmt::format("start    {}\n", start_text(report));
+  text += steps_text(report);
+  text += matrix_text("fitted", fit.fitted.matrix);
+  text += matrix_text("aligned", fit.aligned);
+  text += matrix_text("final", fit.matrix);
+  if (report.storage != Storage::matrix)
+    text += matrix_text("stored", fit.finished.stored);
+  text += fmt::format("symmetry largest value zeroed {:.1e}\n", fit.finished.zeroed);
+  text += fmt::format("loss     {:.4e} in {} steps; {}\n", fit.fitted.loss, fit.fitted.steps,
+                      loss_text(fit));
+  text += fmt::format("albedo   amplitude {:.6f}, Fresnel {:.6f}\n", fit.albedo.amplitude,
+                      fit.albedo.fresnel);
+  if (report.gradient)
+    text += fmt::format("gradient {}\n", report.gradient->describe());
+  return text;
+}
+
+std::string report_json(const FitReport& report) {
+  const LobeFit& fit = report.fit;
+  Json json;
+  json["lobe"] = {{"alpha_x", fit.lobe.alpha_x},
+                  {"alpha_y", fit.lobe.alpha_y},
+                  {"theta_degrees", degrees(fit.lobe.theta_radians)},
+                  {"phi_degrees", degrees(fit.lobe.phi_radians)}};
+  if (report.entry)
+    json["entry"] = entry_text(report.grid, *report.entry);
+  if (report.representative)
+    json["copied_from"] = entry_text(report.grid, *report.representative);
+  json["solver"] = solver_name(report.settings.solver);
+  json["seed"] = report.settings.seed;
+  json["start"] = start_text(report);
+  json["status"] = status_word(fit.fitted.status);
+  json["steps"] = json_of(report, named_steps(report));
+  json["iterations"] = fit.fitted.steps;
+  json["matrix"] = {{"fitted", json_of(fit.fitted.matrix)},
+                    {"aligned", json_of(fit.aligned)},
+                    {"final", json_of(fit.matrix)},
+                    {"stored", json_of(fit.finished.stored)}};
+  json["storage"] = storage_name(report.storage);
+  json["determinant"] = fit.matrix.determinant();
+  json["condition_number"] = condition_number(fit.matrix);
+  json["largest_zeroed"] = fit.finished.zeroed;
+  json["loss"] = {{"fit", fit.fitted.loss},
+                  {"held_out", fit.held_out_loss},
+                  {"spread", fit.spread},
+                  {"relative", fit.held_out_loss / fit.spread}};
+  json["amplitude"] = fit.albedo.amplitude;
+  json["fresnel"] = fit.albedo.fresnel;
+  if (report.gradient)
+    json["gradient_check"] = {{"passed", report.gradient->passed},
+                              {"largest_relative_error", report.gradient->largest_relative_error},
+                              {"undecided", report.gradient->undecided_count()}};
+  return json.dump(2) + "\n";
+}
+
+std::string trace_csv(const FitReport& report) {
+  std::string text = "phase,step,loss,gradient_norm,damping,seconds,accepted\n";
+  for (const auto& [phase, number, step] : named_steps(report))
+    text += fmt::format("{},{},{},{},{},{},{}\n", phase, number, step.loss, step.gradient_norm,
+                        step.damping, step.seconds, step.accepted ? 1 : 0);
+  return text;
+}
+
+picture::Words picture_words(const FitReport& report) {
+  const LobeFit& fit = report.fit;
+  picture::Words words;
+  words.title = report.entry ? "Entry " + entry_text(report.grid, *report.entry)
+                             : std::string("GGX lobe and its LTC");
+  words.subtitle =
+      fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", fit.lobe.alpha_x,
+                  fit.lobe.alpha_y, degrees(fit.lobe.theta_radians), degrees(fit.lobe.phi_radians));
+  const std::size_t steps = named_steps(report).size();
+  words.lines_below = {
+      fmt::format("Loss {}; {:.4e} on the fit's own samples{}", loss_text(fit), fit.fitted.loss,
+                  steps == 0 ? "; no steps were needed" : ""),
+      fmt::format("{}, {}; determinant {:.3e}, condition number {:.3e}; amplitude {:.4f}, Fresnel "
+                  "{:.4f}",
+                  status_word(fit.fitted.status), solver_name(report.settings.solver),
+                  fit.matrix.determinant(), condition_number(fit.matrix), fit.albedo.amplitude,
+                  fit.albedo.fresnel)};
+  return words;
+}
+
+picture::Chart loss_chart(const FitReport& report) {
+  picture::Chart chart;
+  chart.words.title = "Loss against steps";
+  chart.words.subtitle = "Each phase on its own samples";
+  chart.x = {"step"};
+  chart.y = {"sliced-Wasserstein loss", picture::ScaleKind::logarithmic};
+  chart.font_size = 20;
+  const std::vector<NamedStep> steps = named_steps(report);
+  constexpr std::size_t most_markers = 100;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (i == 0 || steps[i].phase != steps[i - 1].phase)
+      chart.series.push_back(
+          {steps[i].phase,
+           {},
+           picture::series_color(chart.series.size()),
+           steps.size() > most_markers ? picture::Marker::none : picture::Marker::disc,
+           2});
+    chart.series.back().points.push_back({static_cast<double>(i + 1), steps[i].step.loss});
+  }
+  if (!steps.empty() && std::isfinite(report.fit.held_out_loss)) {
+    const double loss = report.fit.held_out_loss;
+    chart.series.push_back(
+        {"result, held out",
+         {{1, loss}, {static_cast<double>(std::max<std::size_t>(2, steps.size())), loss}},
+         picture::ink,
+         picture::Marker::none,
+         2,
+         {8, 6}});
+  }
+  return chart;
+}
+
+}  // namespace ltc::cli

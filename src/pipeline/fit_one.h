@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// One lobe through the pipeline, with all that lies between its fit and the table.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "brdf/albedo.h"
+#include "config/config.h"
+#include "core/progress.h"
+#include "fit/fit_table.h"
+#include "fit/gradient_check.h"
+#include "pipeline/post_process.h"
+
+namespace ltc {
+
+// All that is known of one lobe's fit. Matrices are M, but for `finished.stored`. Where the status
+// says that there are no values, matrices and losses are NaN.
+struct LobeFit {
+  GgxLobe lobe;
+  std::vector<WatchedFit> fits;  // the lobe's own fit, then the sweeps
+  FittedEntry fitted;            // as the solver left it; `loss` on the solver's own samples
+  Eigen::Matrix3d aligned;
+  PostProcessed finished;
+  Eigen::Matrix3d matrix;  // M of what is stored
+  Albedo albedo;
+  double held_out_loss = 0;  // of `matrix`, by samples that the fit has not seen
+  double spread = 0;         // of the lobe, the scale of losses (HeldOutJudge::spread)
+};
+
+// The entries that have to be fitted for `flat` to come out as in a table of all `needed` entries,
+// bit for bit: its representative and, for every neighbour sweep, the neighbours of what the sweep
+// before needs, with the representatives of those. `needed` must contain `flat`.
+std::vector<bool> entries_behind(const Grid& grid, const std::vector<bool>& needed,
+                                 std::size_t flat, int sweeps);
+
+// Entry `flat` of the table that generate_table(config, needed, …) makes, bit for bit: what is
+// stored, loss, steps, status, amplitude and Fresnel. `fits` are those of its representative.
+// Throws InputError for an entry that is not needed, else as generate_table.
+LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, std::size_t flat,
+                        int threads, Progress* progress);
+
+// A lobe by itself, from `start` (M) or else from the solver's own starting points.
+LobeFit fit_lobe(const Config& config, const GgxLobe& lobe, std::uint64_t seed,
+                 const std::optional<Eigen::Matrix3d>& start, const Progress* progress);
+
+// M of a starting point of the solvers (starting_points.h); `seed` is that of a random one.
+Eigen::Matrix3d starting_matrix(StartKind kind, const GgxLobe& lobe, std::uint64_t seed);
+
+// Checks the gradient that descents follow, at M, on a small sample set of the lobe.
+GradientCheck check_lobe_gradient(const GgxLobe& lobe, const Eigen::Matrix3d& matrix);
+
+}  // namespace ltc
