@@ -35,8 +35,19 @@ void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& wo
   entry.loss = result.loss;
 }
 
-// The solutions of an entry's neighbours along the four axes, carried over into its own frame: what
-// changes slowly from node to node is P, not M.
+void copy_by_symmetry(const std::vector<PlannedEntry>& plan, std::vector<FittedEntry>& entries) {
+  for (std::size_t flat = 0; flat < plan.size(); ++flat) {
+    const std::size_t representative = plan[flat].representative;
+    if (representative == flat || representative == PlannedEntry::none)
+      continue;
+    const FittedEntry& source = entries[representative];
+    entries[flat] = {turned(source.matrix, plan[flat].turn_radians), source.loss, 0,
+                     has_values(source.status) ? Status::copied : source.status};
+  }
+}
+
+}  // namespace
+
 std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat,
                                               const std::vector<FittedEntry>& entries) {
   std::vector<Eigen::Matrix3d> starts;
@@ -63,19 +74,6 @@ std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat
   }
   return starts;
 }
-
-void copy_by_symmetry(const std::vector<PlannedEntry>& plan, std::vector<FittedEntry>& entries) {
-  for (std::size_t flat = 0; flat < plan.size(); ++flat) {
-    const std::size_t representative = plan[flat].representative;
-    if (representative == flat || representative == PlannedEntry::none)
-      continue;
-    const FittedEntry& source = entries[representative];
-    entries[flat] = {turned(source.matrix, plan[flat].turn_radians), source.loss, 0,
-                     has_values(source.status) ? Status::copied : source.status};
-  }
-}
-
-}  // namespace
 
 std::uint64_t entry_seed(std::uint64_t seed, std::size_t representative) {
   // SplitMix64's finaliser (Steele, Lea and Flood 2014): neighbouring entries get unrelated seeds.
