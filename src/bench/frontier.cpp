@@ -181,6 +181,15 @@ double least_loss(const FrontierRun& run, std::size_t place) {
   return least;
 }
 
+// The worst entry is one of the grid, not of the task's list.
+RatioSummary ratios_at(const FrontierTask& task, const std::vector<EntryComparison>& comparisons,
+                       const std::vector<bool>& include = {}) {
+  RatioSummary summary = summarize_ratios(comparisons, include);
+  if (summary.entries > 0)
+    summary.largest_entry = task.entries[summary.largest_entry];
+  return summary;
+}
+
 double median(std::vector<double> values) {
   if (values.empty())
     return no_value;
@@ -255,10 +264,13 @@ std::vector<SettingSummary> summarize(const FrontierTask& task, const FrontierRu
     summary.error_source = error_source(task, task.settings[i]);
     std::vector<double> seconds;
     std::vector<EntryComparison> comparisons;
+    std::vector<bool> rough;
     for (std::size_t place = 0; place < task.entries.size(); ++place) {
       const EntryMeasurement& measurement = run.measurements[i][place];
       seconds.push_back(measurement.seconds);
       comparisons.push_back({measurement.loss, run.reference_loss[place], 0});
+      const std::size_t flat = task.entries[place];
+      rough.push_back(task.grid.lobe(task.grid.node(flat)).alpha_x > task.grid.alpha_min);
       summary.judged += measurement.judged;
       summary.failures += measurement.judged && !std::isfinite(measurement.loss);
     }
@@ -266,7 +278,8 @@ std::vector<SettingSummary> summarize(const FrontierTask& task, const FrontierRu
     summary.mean_seconds = std::accumulate(seconds.begin(), seconds.end(), 0.0) /
                            static_cast<double>(std::max<std::size_t>(seconds.size(), 1));
     summary.table_seconds = summary.mean_seconds * fitted;
-    summary.ratios = summarize_ratios(comparisons);
+    summary.ratios = ratios_at(task, comparisons);
+    summary.rough_ratios = ratios_at(task, comparisons, rough);
     summaries.push_back(summary);
   }
   return summaries;

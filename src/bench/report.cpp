@@ -36,6 +36,8 @@ Json json_of(const Grid& grid, const BenchSetting& setting, const SettingSummary
           {"judged", summary.judged},
           {"failures", summary.failures},
           {"ratio_mean", value(ratios.mean)},
+          {"ratio_mean_above_alpha_min",
+           summary.rough_ratios.entries > 0 ? Json(summary.rough_ratios.mean) : Json()},
           {"ratio_median", value(ratios.p50)},
           {"ratio_p99", value(ratios.p99)},
           {"ratio_worst", value(ratios.largest)},
@@ -59,12 +61,15 @@ Family family_of(const BenchSetting& setting) {
 
 std::vector<std::string> notes(const FrontierReport& report) {
   const FrontierTask& task = report.task;
-  std::vector<std::string> lines = {fmt::format(
-      "{} of {} fitted entries, fitted in turn on one core; time times {} is the table's",
-      task.entries.size(), fitted_entries(task.grid).size(), fitted_entries(task.grid).size())};
-  lines.push_back(fmt::format(
-      "Error: held-out loss over that of {}, mean, less 1",
-      report.reference_file.empty() ? "the best setting at each entry" : report.reference_file));
+  const std::size_t fitted = fitted_entries(task.grid).size();
+  std::vector<std::string> lines = {
+      fmt::format(
+          "Time: mean of {} of the {} fitted entries, each by all settings in turn; times {}",
+          task.entries.size(), fitted, fitted),
+      fmt::format(
+          "Error: mean held-out loss over that of {}, less 1; α > {:g}",
+          report.reference_file.empty() ? "the best setting at each entry" : report.reference_file,
+          task.grid.alpha_min)};
   for (std::size_t i = 0; i < task.settings.size(); ++i)
     if (report.summaries[i].extrapolated && report.summaries[i].judged > 0)
       lines.push_back(fmt::format("{}: time from {} timed steps of {}, error of {}",
@@ -133,8 +138,8 @@ picture::Chart frontier_chart(const FrontierReport& report) {
   std::vector<ChartPoint> all;
   for (std::size_t i = 0; i < task.settings.size(); ++i) {
     const SettingSummary& summary = report.summaries[i];
-    const double error = summary.ratios.mean - 1;
-    if (summary.ratios.entries == 0 || !(error > 0))
+    const double error = summary.rough_ratios.mean - 1;
+    if (summary.rough_ratios.entries == 0 || !(error > 0))
       continue;
     all.push_back({summary.table_seconds, error, task.settings[i].label});
     families[static_cast<std::size_t>(family_of(task.settings[i]))].points.push_back(all.back());

@@ -30,7 +30,8 @@ std::string frontier_json(const FrontierReport& report);
 // One line for each setting and entry.
 std::string frontier_csv(const FrontierReport& report);
 
-// Time for the whole table on one core against mean error, both logarithmic. A setting without an
+// Time for the whole table on one core against mean error of the lobes above alpha_min, both
+// logarithmic. A setting without an
 // error, or with none at all, has no point.
 picture::Chart frontier_chart(const FrontierReport& report);
 

@@ -108,6 +108,22 @@ TEST(Frontier, TheWorstEntryIsOneOfTheTable) {
   EXPECT_EQ(summaries[0].ratios.largest_entry, task.entries[1]);
 }
 
+TEST(Frontier, TellsMirrorsFromTheRest) {
+  const FrontierTask task = small_task("default", 1000);
+  std::vector<double> losses, ones(task.entries.size(), 1);
+  std::size_t mirrors = 0;
+  for (const std::size_t flat : task.entries) {
+    const bool mirror = task.grid.node(flat).alpha == 0;
+    mirrors += mirror;
+    losses.push_back(mirror ? 50 : 1.5);
+  }
+  ASSERT_GT(mirrors, 0u);
+  const SettingSummary summary = summarize(task, made_up({losses}, ones))[0];
+  EXPECT_DOUBLE_EQ(summary.rough_ratios.mean, 1.5);
+  EXPECT_EQ(summary.rough_ratios.entries + mirrors, summary.ratios.entries);
+  EXPECT_GT(summary.ratios.mean, 1.5);
+}
+
 // ---- Measurements ----
 
 TEST(Frontier, JudgesWhatTheTableWouldHold) {
