@@ -3,7 +3,7 @@
 // Measures run time against error: several settings on the same entries, in one run.
 //
 // All settings fit an entry before any fits the next, so that whatever else the machine does hits
-// them alike. One thread: times are those of one core.
+// them alike. One thread, and processor time: times are those of one core that is not shared.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ struct FrontierTask {
 };
 
 struct EntryMeasurement {
-  double seconds = 0;  // of the fit, the neighbours' sweep included
+  double seconds = 0;  // processor time of the fit, the neighbours' sweep included
   double loss = 0;     // held out; NaN where nothing was judged or there is no finite matrix
   int steps = 0;
   bool judged = false;  // there was a matrix to judge, finite or not

@@ -110,9 +110,9 @@ std::vector<BenchSetting> bench_settings(std::uint64_t seed) {
        sgd_practical()},
       {"sgd-published", "SGD, published", "config/paper.toml: 10,000 steps; few are timed",
        sgd_published(), 8},
-      {"l3-nelder-mead", "L3, Nelder–Mead", "L3 error by simplex from the first-order start",
+      {"l3-nelder-mead", "L3, first-order start", "L3 error by simplex from the first-order start",
        l3(StartKind::first_order)},
-      {"l3-identity", "L3, from identity", "L3 error by simplex from the clamped cosine",
+      {"l3-identity", "L3, identity start", "L3 error by simplex from the clamped cosine",
        l3(StartKind::identity)},
   };
   for (BenchSetting& setting : settings)

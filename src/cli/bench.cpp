@@ -63,7 +63,7 @@ void require_writable(const std::vector<std::string>& files) {
           fmt::format("cannot write {}: there is no folder {}", files[i], folder.string()));
     platform::require_writable_folder(folder);
     for (std::size_t j = 0; j < i; ++j)
-      if (fs::weakly_canonical(file, ignored) == fs::weakly_canonical(files[j], ignored))
+      if (fs::weakly_canonical(fs::absolute(file)) == fs::weakly_canonical(fs::absolute(files[j])))
         throw InputError(
             fmt::format("{} is named for two outputs; expected different files", files[i]));
   }
@@ -129,10 +129,9 @@ std::string report_text(const FrontierReport& report) {
   const FrontierTask& task = report.task;
   const auto shape = task.grid.shape();
   std::string text = fmt::format(
-      "{} of the {} fitted entries of a {}x{}x{}x{} table, evenly strided; all settings in turn "
-      "at\n"
-      "each entry, on one core. Error: held-out loss ({} samples, {} directions) over that "
-      "of\n{}.\n\n",
+      "{} of the {} fitted entries of a {}x{}x{}x{} table, evenly strided. Each is fitted by all\n"
+      "settings in turn; times are processor time of one core. Error: held-out loss ({} samples,\n"
+      "{} directions) over that of {}.\n\n",
       task.entries.size(), fitted_entries(task.grid).size(), shape[0], shape[1], shape[2], shape[3],
       task.judge.samples, task.judge.directions,
       report.reference_file.empty() ? "the best setting at each entry" : report.reference_file);

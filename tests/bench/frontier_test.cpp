@@ -254,7 +254,7 @@ TEST(FrontierReport, TheChartHasAPointForEveryKnownError) {
         EXPECT_GT(point.y, 0);
         EXPECT_GT(point.x, 0);
       }
-  EXPECT_EQ(labels, (std::vector<std::string>{"256 × 16", "default", "L3, Nelder–Mead"}));
+  EXPECT_EQ(labels, (std::vector<std::string>{"256 × 16", "default", "L3, first-order start"}));
   EXPECT_GT(picture::render(chart, 800, 600).png_bytes().size(), 1000u);
 }
 
