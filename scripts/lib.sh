@@ -8,7 +8,7 @@ build_packages=(
   g++ cmake ninja-build git pkg-config
   libeigen3-dev libhdf5-dev libopenexr-dev libgtest-dev libhwy-dev libcli11-dev libtomlplusplus-dev
   libfmt-dev libpng-dev nlohmann-json3-dev libbenchmark-dev
-  libcairo2-dev fonts-dejavu-core
+  libcairo2-dev fonts-dejavu-core libnlopt-cxx-dev libnlopt-dev
 )
 # Readers by others, which the tests check our files with.
 test_packages=(hdf5-tools openexr python3-h5py python3-numpy)

@@ -50,7 +50,7 @@ std::vector<Key> table_keys() {
 }
 
 std::vector<Key> fit_keys() {
-  const Choices<SolverKind> solvers = {{"gauss-newton", SolverKind::gauss_newton}, {"sgd", SolverKind::sgd}};
+  const Choices<SolverKind> solvers = {{"gauss-newton", SolverKind::gauss_newton}, {"sgd", SolverKind::sgd}, {"l3-nelder-mead", SolverKind::l3_nelder_mead}};
   const Choices<TargetKind> targets = {{"weighted", TargetKind::weighted}, {"rejection", TargetKind::rejection}};
   const Choices<StartKind> starts = {{"first-order", StartKind::first_order}, {"moments", StartKind::moments}, {"identity", StartKind::identity}, {"random", StartKind::random}};
   return {
@@ -81,6 +81,11 @@ std::vector<Key> fit_keys() {
       key("fit.sgd.start", [](Draft& d) { return &d.config.fit.sgd.start; }, starts, "where the descent starts"),
       key("fit.sgd.scaled_variables", [](Draft& d) { return &d.config.fit.sgd.scaled_variables; }, "descend in the mirror's frame divided by the roughness, not in M itself"),
       key("fit.sgd.lattice_samples", [](Draft& d) { return &d.config.fit.sgd.lattice_samples; }, "draw a step's samples from randomly shifted lattices, not independently; needs the weighted target"),
+
+      key("fit.l3.samples", [](Draft& d) { return &d.config.fit.l3.samples; }, {16, 65536}, "directions from the LTC, and as many from the lobe, that the L3 error is integrated with"),
+      key("fit.l3.evaluations", [](Draft& d) { return &d.config.fit.l3.evaluations; }, {1, 1'000'000}, "most evaluations of the L3 error an entry"),
+      key("fit.l3.tolerance", [](Draft& d) { return &d.config.fit.l3.tolerance; }, {0, 1}, "ends when the errors of the simplex differ by less than this share"),
+      key("fit.l3.start", [](Draft& d) { return &d.config.fit.l3.start; }, starts, "where the simplex starts"),
   };
 }
 

@@ -20,21 +20,6 @@ Eigen::Matrix3d rounded_to_symmetry(const GgxLobe& lobe, Eigen::Matrix3d matrix)
   return matrix;
 }
 
-// The solutions of an entry's neighbours along the four axes, carried over into its own frame: what
-// changes slowly from node to node is P, not M.
-std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat,
-                                              const std::vector<FittedEntry>& entries) {
-  std::vector<Eigen::Matrix3d> starts;
-  const LobeFrame frame(grid.lobe(grid.node(flat)));
-  for (const std::size_t neighbour : neighbours_of(grid, flat)) {
-    const FittedEntry& entry = entries[neighbour];
-    if (has_values(entry.status))
-      starts.push_back(
-          frame.to_matrix(LobeFrame(grid.lobe(grid.node(neighbour))).from_matrix(entry.matrix)));
-  }
-  return starts;
-}
-
 void copy_by_symmetry(const std::vector<PlannedEntry>& plan, std::vector<FittedEntry>& entries) {
   for (std::size_t flat = 0; flat < plan.size(); ++flat) {
     const std::size_t representative = plan[flat].representative;
@@ -92,6 +77,19 @@ void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& wo
   entry.status = result.outcome == FitOutcome::analytic ? Status::analytic : Status::fitted;
   entry.matrix = rounded_to_symmetry(request.lobe, result.matrix);
   entry.loss = result.loss;
+}
+
+std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat,
+                                              const std::vector<FittedEntry>& entries) {
+  std::vector<Eigen::Matrix3d> starts;
+  const LobeFrame frame(grid.lobe(grid.node(flat)));
+  for (const std::size_t neighbour : neighbours_of(grid, flat)) {
+    const FittedEntry& entry = entries[neighbour];
+    if (has_values(entry.status))
+      starts.push_back(
+          frame.to_matrix(LobeFrame(grid.lobe(grid.node(neighbour))).from_matrix(entry.matrix)));
+  }
+  return starts;
 }
 
 std::uint64_t entry_seed(std::uint64_t seed, std::size_t representative) {

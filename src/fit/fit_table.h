@@ -59,6 +59,11 @@ std::vector<std::size_t> neighbours_of(const Grid& grid, std::size_t flat);
 void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
                std::vector<FitStep>* trace, FittedEntry& entry);
 
+// The solutions of an entry's neighbours along the four axes, carried over into its own frame: what
+// changes slowly from node to node is P, not M. Neighbours without values are left out.
+std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat,
+                                              const std::vector<FittedEntry>& entries);
+
 // The seed of everything random about one entry's fit; `representative` is that of the whole grid's
 // plan, so that an entry is fitted alike whatever else is needed.
 std::uint64_t entry_seed(std::uint64_t seed, std::size_t representative);

@@ -7,7 +7,8 @@
 
 namespace ltc {
 
-enum class SolverKind { gauss_newton, sgd };    // "gauss-newton", "sgd"
+// "gauss-newton", "sgd", "l3-nelder-mead"
+enum class SolverKind { gauss_newton, sgd, l3_nelder_mead };
 enum class TargetKind { weighted, rejection };  // "weighted", "rejection"
 // "first-order", "moments", "identity", "random"
 enum class StartKind { first_order, moments, identity, random };
@@ -50,12 +51,21 @@ struct SgdSettings {
   bool lattice_samples = false;
 };
 
+// Nelder and Mead's simplex on the L3 error, the method before the sliced-Wasserstein distance.
+struct L3Settings {
+  int samples = 1024;  // quadrature directions from the LTC, and as many from the lobe, [16, 65536]
+  int evaluations = 1000;   // most evaluations of the error, [1, 1000000]
+  double tolerance = 1e-5;  // ends when the simplex's errors differ by less than this share, [0, 1]
+  StartKind start = StartKind::first_order;
+};
+
 struct FitSettings {
   SolverKind solver = SolverKind::gauss_newton;
   TargetKind target = TargetKind::weighted;
   std::uint64_t seed = 1;
   GaussNewtonSettings gauss_newton;
   SgdSettings sgd;
+  L3Settings l3;
 };
 
 }  // namespace ltc

@@ -131,17 +131,7 @@ class Descender {
 
  private:
   Eigen::Matrix3d own_start() {
-    switch (settings_.start) {
-      case StartKind::identity:
-        return Eigen::Matrix3d::Identity();
-      case StartKind::first_order:
-        return frame_.to_matrix(first_order_start(frame_));
-      case StartKind::moments:
-        return frame_.to_matrix(moment_start(frame_, workspace_.target));
-      case StartKind::random:
-        return frame_.to_matrix(random_start(frame_, workspace_.target, seed_));
-    }
-    return Eigen::Matrix3d::Identity();
+    return frame_.to_matrix(start_of_kind(settings_.start, frame_, workspace_.target, seed_));
   }
 
   // Symmetry zeros of M are zeros of Q^T M too.

@@ -3,6 +3,7 @@
 #include "fit/solver.h"
 
 #include "fit/gauss_newton_solver.h"
+#include "fit/l3_nelder_mead.h"
 #include "fit/sgd_solver.h"
 #include "fit/workspace.h"
 
@@ -17,8 +18,14 @@ FitWorkspacePointer make_fit_workspace() {
 }
 
 std::unique_ptr<Solver> make_solver(const FitSettings& settings) {
-  if (settings.solver == SolverKind::sgd)
-    return std::make_unique<SgdSolver>(settings.sgd, settings.target);
+  switch (settings.solver) {
+    case SolverKind::sgd:
+      return std::make_unique<SgdSolver>(settings.sgd, settings.target);
+    case SolverKind::l3_nelder_mead:
+      return std::make_unique<L3NelderMeadSolver>(settings.l3);
+    case SolverKind::gauss_newton:
+      break;
+  }
   return std::make_unique<GaussNewtonSolver>(settings.gauss_newton, settings.target);
 }
 

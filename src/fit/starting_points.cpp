@@ -93,4 +93,19 @@ Eigen::Matrix3d random_start(const LobeFrame& frame, const TargetSamples& target
   return admissible(p, free_entries(frame.lobe));
 }
 
+Eigen::Matrix3d start_of_kind(StartKind kind, const LobeFrame& frame, const TargetSamples& target,
+                              std::uint64_t seed) {
+  switch (kind) {
+    case StartKind::first_order:
+      return first_order_start(frame);
+    case StartKind::moments:
+      return moment_start(frame, target);
+    case StartKind::random:
+      return random_start(frame, target, seed);
+    case StartKind::identity:
+      break;
+  }
+  return identity_start(frame);
+}
+
 }  // namespace ltc

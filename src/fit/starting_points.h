@@ -8,6 +8,7 @@
 
 #include "fit/lobe_frame.h"
 #include "fit/quantile_model.h"
+#include "fit/settings.h"
 
 namespace ltc {
 
@@ -31,6 +32,10 @@ Eigen::Matrix3d identity_start(const LobeFrame& frame);
 // entry.
 Eigen::Matrix3d random_start(const LobeFrame& frame, const TargetSamples& target,
                              std::uint64_t seed);
+
+// The one of these that a config names.
+Eigen::Matrix3d start_of_kind(StartKind kind, const LobeFrame& frame, const TargetSamples& target,
+                              std::uint64_t seed);
 
 // P with the entries that are not free set to zero and column 1 turned where the determinant was
 // negative, which leaves the lobe as it is. The result may still be singular.

@@ -15,6 +15,14 @@
 namespace ltc {
 namespace {
 
+// The least value that at least `share` of the sorted values do not exceed.
+double quantile(const std::vector<double>& sorted, double share) {
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  return sorted[std::min(rank == 0 ? 0 : rank - 1, sorted.size() - 1)];
+}
+
+}  // namespace
+
 void require_same_grid(const Grid& a, const Grid& b) {
   if (a == b)
     return;
@@ -31,14 +39,6 @@ void require_same_grid(const Grid& a, const Grid& b) {
       "the tables have different axes or another alpha_min; entries can only be "
       "compared on the same grid");
 }
-
-// The least value that at least `share` of the sorted values do not exceed.
-double quantile(const std::vector<double>& sorted, double share) {
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::min(rank == 0 ? 0 : rank - 1, sorted.size() - 1)];
-}
-
-}  // namespace
 
 std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
                                             const CompareSettings& settings, int threads,

@@ -25,6 +25,9 @@ struct EntryComparison {
   double spread = 0;  // of the GGX lobe, the scale that losses are judged by
 };
 
+// Throws InputError, naming the difference, unless the two grids are the same.
+void require_same_grid(const Grid& a, const Grid& b);
+
 // One comparison a node. Throws InputError when the grids differ.
 std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
                                             const CompareSettings& settings, int threads,

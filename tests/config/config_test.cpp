@@ -139,7 +139,8 @@ TEST(Config, WrongTypesAreRefused) {
   expect_refused("fit.seed=[1, 2]", {"fit.seed = an array", "a whole number"});
   expect_refused("fit.sgd.learning_rate=true", {"= true", "a number in (0, 1000]"});
   expect_refused("output.exr=1", {"output.exr = 1", "true or false"});
-  expect_refused("fit.solver=3", {"fit.solver = 3", "\"gauss-newton\" or \"sgd\""});
+  expect_refused("fit.solver=3",
+                 {"fit.solver = 3", "\"gauss-newton\", \"sgd\" or \"l3-nelder-mead\""});
   expect_refused("fit.sgd.steps={a = 1}", {"fit.sgd.steps", "a whole number"});
 }
 

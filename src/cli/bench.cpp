@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// ltcfit bench: run time against error of many settings, in one run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "bench/report.h"
+#include "cli/command.h"
+#include "cli/entry_text.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "core/error.h"
+#include "core/platform.h"
+#include "export/reader.h"
+
+namespace ltc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Keeps the whole run within two or three minutes, and lets a 99th percentile mean something.
+constexpr std::size_t default_entries = 200;
+
+struct Arguments {
+  ConfigArguments config;
+  std::string settings;  // empty: all
+  std::size_t entries = default_entries;
+  bool all = false;
+  std::string published, reference;  // empty: none
+  std::size_t whole_fits = 0;
+  CompareSettings judge;
+  std::string json, csv, picture;  // empty: none
+};
+
+// The built-in settings, and what the user's own config says where there is one.
+std::vector<BenchSetting> available_settings(const Arguments& arguments, const Config& config) {
+  std::vector<BenchSetting> settings = bench_settings(config.fit.seed);
+  if (!arguments.config.as_text().empty())
+    settings.push_back(
+        {"config", "your config", "as" + arguments.config.as_text() + " says", config.fit});
+  return settings;
+}
+
+// Better now than after the run: that the files can be written, and are not the same one twice.
+void require_writable(const std::vector<std::string>& files) {
+  std::error_code ignored;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const fs::path file = files[i];
+    if (files[i].empty())
+      continue;
+    if (fs::is_directory(file, ignored))
+      throw IoError(fmt::format("cannot write {}: it is a folder", files[i]));
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, ignored))
+      throw IoError(
+          fmt::format("cannot write {}: there is no folder {}", files[i], folder.string()));
+    platform::require_writable_folder(folder);
+    for (std::size_t j = 0; j < i; ++j)
+      if (fs::weakly_canonical(fs::absolute(file)) == fs::weakly_canonical(fs::absolute(files[j])))
+        throw InputError(
+            fmt::format("{} is named for two outputs; expected different files", files[i]));
+  }
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  platform::write_atomically(path, [&](const fs::path& temporary) {
+    std::ofstream file(temporary, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file)
+      throw IoError(fmt::format("cannot write {}", path));
+  });
+}
+
+// A ratio, or a dash where nothing was judged.
+std::string ratio_text(double ratio, const RatioSummary& of) {
+  return of.entries > 0 ? fmt::format("{:.4f}", ratio) : "-";
+}
+
+std::string error_text(const SettingSummary& summary) {
+  const RatioSummary &ratios = summary.ratios, &rough = summary.rough_ratios;
+  return fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>9}", ratio_text(ratios.mean, ratios),
+                     ratio_text(rough.mean, rough), ratio_text(ratios.p50, ratios),
+                     ratio_text(ratios.p99, ratios), ratio_text(ratios.largest, ratios),
+                     summary.judged > 0 ? fmt::to_string(summary.failures) : "-");
+}
+
+std::string row_text(const BenchSetting& setting, const SettingSummary& summary) {
+  return fmt::format("{:<18} {:>11.3f} {:>11.3f} {:>13} {}\n", setting.name,
+                     1e3 * summary.median_seconds, 1e3 * summary.mean_seconds,
+                     (summary.extrapolated ? "~" : "") + duration_text(summary.table_seconds),
+                     error_text(summary));
+}
+
+// How the first few steps became hours, and whose error stands beside them.
+std::string extrapolation_text(const BenchSetting& setting, const SettingSummary& summary) {
+  std::string text = fmt::format("~ {}: time extrapolated from {} timed steps of {}; ",
+                                 setting.name, setting.timed_steps, setting.fit.sgd.steps);
+  if (summary.error_source == ErrorSource::none)
+    return text + "no error without --published or --full-sgd\n";
+  return text + fmt::format("error of {}, {} {}\n", error_source_text(summary.error_source),
+                            summary.judged, summary.judged == 1 ? "entry" : "entries");
+}
+
+// "default takes 1/6100 of the time of sgd-published", where both were run.
+std::string comparison_text(const FrontierReport& report) {
+  const auto find = [&](std::string_view name) -> const SettingSummary* {
+    for (std::size_t i = 0; i < report.task.settings.size(); ++i)
+      if (report.task.settings[i].name == name)
+        return &report.summaries[i];
+    return nullptr;
+  };
+  const SettingSummary* fast = find("default");
+  const SettingSummary* slow = find("sgd-published");
+  if (!fast || !slow)
+    return "";
+  return fmt::format("default is {:.0f} times faster per entry than sgd-published\n",
+                     slow->mean_seconds / fast->mean_seconds);
+}
+
+std::string report_text(const FrontierReport& report) {
+  const FrontierTask& task = report.task;
+  const auto shape = task.grid.shape();
+  std::string text = fmt::format(
+      "{} of the {} fitted entries of a {}x{}x{}x{} table, evenly strided. Each is fitted by all\n"
+      "settings in turn; times are processor time of one core. Error: held-out loss ({} samples,\n"
+      "{} directions) over that of {}.\n\n",
+      task.entries.size(), fitted_entries(task.grid).size(), shape[0], shape[1], shape[2], shape[3],
+      task.judge.samples, task.judge.directions,
+      report.reference_file.empty() ? "the best setting at each entry" : report.reference_file);
+  text += fmt::format("{:<18} {:>23} {:>13} {:>9} {:>9}\n", "", "milliseconds an entry", "table,",
+                      "error", "mean for");
+  text += fmt::format("{:<18} {:>11} {:>11} {:>13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+                      "setting", "median", "mean", "one core", "mean",
+                      fmt::format("a>{:.0e}", task.grid.alpha_min), "median", "p99", "worst",
+                      "failures");
+  std::string notes;
+  for (std::size_t i = 0; i < task.settings.size(); ++i) {
+    text += row_text(task.settings[i], report.summaries[i]);
+    if (report.summaries[i].extrapolated)
+      notes += extrapolation_text(task.settings[i], report.summaries[i]);
+  }
+  notes += comparison_text(report);
+  return text + (notes.empty() ? "" : "\n" + notes);
+}
+
+std::optional<Table> table_of(const std::string& file) {
+  return file.empty() ? std::nullopt : std::optional<Table>(read_table(file));
+}
+
+void bench(const Arguments& arguments) {
+  ProgressDisplay progress;
+  const StopOnInterrupt stop_on_interrupt(progress);
+  const Config config = arguments.config.load();
+  require_writable({arguments.json, arguments.csv, arguments.picture});
+  const std::optional<Table> published = table_of(arguments.published);
+  const std::optional<Table> reference = table_of(arguments.reference);
+
+  FrontierReport report;
+  report.published_file = arguments.published;
+  report.reference_file = arguments.reference;
+  FrontierTask& task = report.task;
+  task.grid = config.grid;
+  task.settings = select_settings(available_settings(arguments, config), arguments.settings);
+  task.entries = fitted_entries(config.grid);
+  if (!arguments.all)
+    task.entries = strided(task.entries, arguments.entries);
+  task.judge = arguments.judge;
+  task.published = published ? &*published : nullptr;
+  task.reference = reference ? &*reference : nullptr;
+  task.whole_fits = arguments.whole_fits;
+  report.run = measure_frontier(task, &progress);
+  report.summaries = summarize(task, report.run);
+
+  progress.throw_if_stopped();
+  if (!arguments.json.empty())
+    write_text(arguments.json, frontier_json(report));
+  if (!arguments.csv.empty())
+    write_text(arguments.csv, frontier_csv(report));
+  if (!arguments.picture.empty())
+    picture::render(frontier_chart(report), 1600, 1100).write_png(arguments.picture);
+  print(report_text(report));
+}
+
+void add_what_options(CLI::App& app, Arguments& arguments) {
+  add_config_options(app, arguments.config);
+  constexpr const char* group = "What to measure";
+  app.add_option("--settings", arguments.settings,
+                 "only these of the built-in settings; \"config\" is what --config and --set say")
+      ->option_text("A,B,...")
+      ->group(group);
+  CLI::Option* entries =
+      app.add_option("--entries", arguments.entries, "how many of the fitted entries [200]")
+          ->check(CLI::Range(1, 1 << 24))
+          ->option_text("N")
+          ->group(group);
+  app.add_flag("--all", arguments.all, "all fitted entries")->excludes(entries)->group(group);
+}
+
+void add_error_options(CLI::App& app, Arguments& arguments) {
+  constexpr const char* group = "What errors are relative to";
+  app.add_option("--reference", arguments.reference,
+                 "table whose losses are 1 [the best setting at each entry]")
+      ->option_text("FILE")
+      ->group(group);
+  CLI::Option* published =
+      app.add_option("--published", arguments.published,
+                     "table whose error stands in for that of sgd-published [none]")
+          ->option_text("FILE")
+          ->group(group);
+  app.add_option("--full-sgd", arguments.whole_fits,
+                 "make sgd-published's whole fit at so many entries, a minute each [0]")
+      ->check(CLI::Range(0, 1 << 24))
+      ->excludes(published)
+      ->option_text("N")
+      ->group(group);
+  app.add_option("--samples", arguments.judge.samples, "held-out samples an entry [16384]")
+      ->check(CLI::Range(64, 1 << 20))
+      ->option_text("N")
+      ->group(group);
+  app.add_option("--directions", arguments.judge.directions, "held-out directions an entry [64]")
+      ->check(CLI::Range(1, 4096))
+      ->option_text("N")
+      ->group(group);
+}
+
+void add_output_options(CLI::App& app, Arguments& arguments) {
+  const auto add = [&](const char* name, std::string& file, const char* what) {
+    app.add_option(name, file, what)->option_text("FILE")->group("Where to write");
+  };
+  add("--json", arguments.json, "the table as JSON [none]");
+  add("--csv", arguments.csv, "every fit as a line [none]");
+  add("--picture", arguments.picture, "time against error as PNG [none]");
+}
+
+}  // namespace
+
+Action declare_bench(CLI::App& app) {
+  const auto arguments = std::make_shared<Arguments>();
+  add_what_options(app, *arguments);
+  add_error_options(app, *arguments);
+  add_output_options(app, *arguments);
+  return [arguments] { bench(*arguments); };
+}
+
+}  // namespace ltc::cli
