@@ -7,6 +7,7 @@ namespace ltc::cli {
 // One a file of the same name.
 Action declare_generate(CLI::App& app);
 Action declare_diff(CLI::App& app);
+Action declare_render(CLI::App& app);
 
 std::span<const Command> commands() {
   static constexpr Command all[] = {
@@ -14,6 +15,8 @@ std::span<const Command> commands() {
        declare_generate},
       {"diff", "Compare and validate tables",
        "tell which of two tables is nearer to GGX, and where", declare_diff},
+      {"render", "Compare and validate tables", "render spheres with a table and with sampled GGX",
+       declare_render},
   };
   return all;
 }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// Rendered spheres as one picture: a row a material; GGX, then LTC and difference for each table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "picture/canvas.h"
+#include "render/sphere_images.h"
+
+namespace ltc {
+
+struct SphereRow {
+  Material material;
+  SphereImages images;
+};
+
+struct SpherePicture {
+  std::string title, caption;       // a line each above and below; none where empty
+  std::vector<std::string> tables;  // what their columns are called
+  std::vector<SphereRow> rows;      // all images of one size
+};
+
+// The radiance of the light itself is white, in sRGB; nothing reflects more, so nothing is cut off.
+// Differences of all rows share a diverging scale. Throws InputError if there is no row or no
+// table.
+picture::Canvas draw(const SpherePicture& content);
+
+}  // namespace ltc
