@@ -158,8 +158,9 @@ SpherePicture picture_of(const Arguments& arguments, std::vector<Result>& result
   if (!arguments.table_b.empty())
     content.tables = {"LTC, table A", "LTC, table B"};
   content.caption = fmt::format(
-      "x along the parallels about the upright axis, y along the meridians; white is the light's "
-      "radiance; {} samples a pixel",
+      "x along the parallels about the upright axis, y along the meridians. GGX: multiple "
+      "importance "
+      "sampling, {} samples a pixel.",
       arguments.settings.samples);
   for (Result& result : results)
     content.rows.push_back(std::move(result.row));
@@ -228,7 +229,7 @@ Action declare_render(CLI::App& app) {
       ->option_text("N")
       ->group("How to render");
   app.add_option("--samples", arguments->settings.samples,
-                 "samples of the GGX reference a pixel, rounded up to a multiple of 16 [512]")
+                 "samples of the GGX reference a pixel, rounded up to a multiple of 16 [1024]")
       ->check(CLI::Range(16, 1 << 20))
       ->option_text("N")
       ->group("How to render");

@@ -16,8 +16,9 @@ namespace {
 
 using namespace picture;
 
-constexpr double background = 0.035;  // radiance behind the sphere: darker than what it reflects
-constexpr double least_side = 160;    // pixels of an image in the picture
+constexpr double background = 0.02;  // behind the sphere, linear sRGB: the sphere is black there
+constexpr double brightest = 0.9;    // what the brightest of GGX becomes, likewise
+constexpr double least_side = 160;   // pixels of an image in the picture
 
 // Sizes in units of the font size.
 constexpr double margin = 1.2;
@@ -42,35 +43,33 @@ double encode_srgb(double linear) {
   return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
 }
 
-// Radiance before the background, as greys.
-Field as_seen(const Field& radiance, const Field& coverage) {
+// Radiance times the exposure before the background, as greys.
+Field as_seen(const Field& radiance, const Field& coverage, double exposure) {
   Field seen = radiance;
   for (std::size_t i = 0; i < seen.values.size(); ++i) {
     const double behind = (1 - static_cast<double>(coverage.values[i])) * background;
-    const double value = radiance.values[i] + behind;
-    seen.values[i] =
-        std::isnan(value) ? radiance.values[i] : static_cast<float>(encode_srgb(value));
+    if (!std::isnan(radiance.values[i]))
+      seen.values[i] = static_cast<float>(encode_srgb(exposure * radiance.values[i] + behind));
   }
   return seen;
 }
 
-// Differences; NaN off the sphere, where there is nothing to compare, is left to `no_value`.
-double largest_difference(const SpherePicture& content) {
-  std::vector<float> magnitudes;
-  for (const SphereRow& row : content.rows)
-    for (std::size_t table = 0; table < content.tables.size(); ++table) {
-      const Field field = difference(row.images, table);
-      for (std::size_t i = 0; i < field.values.size(); ++i)
-        if (row.images.coverage.values[i] > 0 && std::isfinite(field.values[i]))
-          magnitudes.push_back(std::abs(field.values[i]));
-    }
+// The magnitude that all but the largest 0.2 % of the values keep below: a few pixels at a sharp
+// edge shall not pale all the others. Zero if there are none.
+double nearly_largest(std::vector<float> magnitudes) {
   if (magnitudes.empty())
     return 0;
-  // A few pixels at a sharp edge shall not pale all the others.
-  const auto rank = magnitudes.begin() +
-                    static_cast<std::ptrdiff_t>(0.998 * static_cast<double>(magnitudes.size() - 1));
-  std::nth_element(magnitudes.begin(), rank, magnitudes.end());
-  return *rank;
+  const double rank = 0.998 * static_cast<double>(magnitudes.size() - 1);
+  const auto place = magnitudes.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(magnitudes.begin(), place, magnitudes.end());
+  return *place;
+}
+
+// The magnitudes of the pixels on the sphere that have a value.
+void add_magnitudes(const Field& field, const Field& coverage, std::vector<float>& magnitudes) {
+  for (std::size_t i = 0; i < field.values.size(); ++i)
+    if (coverage.values[i] > 0 && std::isfinite(field.values[i]))
+      magnitudes.push_back(std::abs(field.values[i]));
 }
 
 // The next round number up: 1, 2 or 5 times a power of ten.
@@ -84,15 +83,27 @@ double rounded_up(double value) {
   return 10 * decade;
 }
 
+double exposure_of(const SphereImages& images) {
+  std::vector<float> magnitudes;
+  add_magnitudes(images.reference, images.coverage, magnitudes);
+  const double largest = nearly_largest(std::move(magnitudes));
+  return largest > 0 ? brightest / largest : 1;
+}
+
+ColorScale difference_colors(const SphereImages& images) {
+  std::vector<float> magnitudes;
+  for (std::size_t table = 0; table < images.ltc.size(); ++table)
+    add_magnitudes(difference(images, table), images.coverage, magnitudes);
+  const double bound = rounded_up(nearly_largest(std::move(magnitudes)));
+  return {Scale::linear(-bound, bound), &ColorMap::diverging(), "LTC − GGX"};
+}
+
 class Painter {
  public:
   explicit Painter(const SpherePicture& content)
       : content_(content),
         side_(std::max(least_side, static_cast<double>(content.rows[0].images.reference.width))),
         font_(std::max(12.0, std::round(side_ / 17))),
-        bound_(rounded_up(largest_difference(content))),
-        difference_colors_{Scale::linear(-bound_, bound_), &ColorMap::diverging(),
-                           "LTC − GGX, radiance over the light's"},
         canvas_(static_cast<int>(width()), static_cast<int>(height())) {}
 
   Canvas paint() {
@@ -102,10 +113,6 @@ class Painter {
     draw_heads(heads.bottom() - 0.5 * font_);
     for (std::size_t row = 0; row < content_.rows.size(); ++row)
       draw_row(row, std::round(box.top + static_cast<double>(row) * (side_ + gap * font_)));
-    const double rows_height = rows_side();
-    draw_upright_bar(canvas_,
-                     {bar_left(), box.top, bar_width(), std::min(rows_height, 2.2 * side_)},
-                     difference_colors_, font_, outside_);
     return std::move(canvas_);
   }
 
@@ -153,19 +160,22 @@ class Painter {
     const SphereRow& row = content_.rows[index];
     draw_label(row, top);
     const ColorScale grey{Scale::linear(0, 1), &greys()};
-    const auto image = [&](double left, const Field& field, const ColorScale& colors) {
-      const Box box{left, top, side_, side_};
-      canvas_.image(field, colors, box, Sampling::nearest);
-      return box;
+    const ColorScale colors = difference_colors(row.images);
+    const double exposure = exposure_of(row.images);
+    const auto radiance = [&](double left, const Field& field) {
+      canvas_.image(as_seen(field, row.images.coverage, exposure), grey, {left, top, side_, side_});
     };
-    image(left_of_reference(), as_seen(row.images.reference, row.images.coverage), grey);
+    Beyond outside;
+    radiance(left_of_reference(), row.images.reference);
     for (std::size_t table = 0; table < content_.tables.size(); ++table) {
-      image(left_of_table(table), as_seen(row.images.ltc[table], row.images.coverage), grey);
+      radiance(left_of_table(table), row.images.ltc[table]);
       const Field field = difference(row.images, table);
-      outside_ = outside_ | beyond(difference_colors_.scale, field.values);
-      const Box box = image(left_of_table(table) + side_ + gap * font_, field, difference_colors_);
+      outside = outside | beyond(colors.scale, field.values);
+      const Box box{left_of_table(table) + std::round(side_ + gap * font_), top, side_, side_};
+      canvas_.image(field, colors, box);
       canvas_.circle(box.center(), SphereScene{}.sphere_share * side_ / 2, {faint_ink, 1});
     }
+    draw_upright_bar(canvas_, {bar_left(), top, bar_width(), side_}, colors, 0.8 * font_, outside);
   }
 
   void draw_label(const SphereRow& row, double top) {
@@ -180,6 +190,7 @@ class Painter {
     line(fmt::format("αy = {}", format_value(row.material.alpha_y)), true, 1);
     if (row.material.f0 != 1)
       line(fmt::format("F0 = {}", format_value(row.material.f0)), true, 1);
+    line(fmt::format("shown {:.2g} × as bright", exposure_of(row.images)), false, 0.8);
     for (std::size_t table = 0; table < content_.tables.size(); ++table) {
       const SphereError error = sphere_error(row.images, table);
       baseline += 0.6 * font_;
@@ -195,9 +206,7 @@ class Painter {
   }
 
   const SpherePicture& content_;
-  double side_, font_, bound_;
-  ColorScale difference_colors_;
-  Beyond outside_;
+  double side_, font_;
   Canvas canvas_;
 };
 

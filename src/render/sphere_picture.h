@@ -22,9 +22,9 @@ struct SpherePicture {
   std::vector<SphereRow> rows;      // all images of one size
 };
 
-// The radiance of the light itself is white, in sRGB; nothing reflects more, so nothing is cut off.
-// Differences of all rows share a diverging scale. Throws InputError if there is no row or no
-// table.
+// Radiance is shown in sRGB; a row's images share an exposure, which brings the brightest of GGX
+// near white, and its differences a scale, which takes in all but the largest 0.2 %. Throws
+// InputError if there is no row or no table.
 picture::Canvas draw(const SpherePicture& content);
 
 }  // namespace ltc

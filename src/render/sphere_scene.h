@@ -28,7 +28,7 @@ struct RectangleLight {
 // -z from (0, 0, camera_distance).
 struct SphereScene {
   // Up, to the right and before the sphere, turned towards it.
-  RectangleLight light = facing_origin({1.15, 1.75, 2.2}, 1.0, 0.55);
+  RectangleLight light = facing_origin({1.0, 1.5, 2.1}, 1.1, 0.7);
   double camera_distance = 6;
   double sphere_share = 0.94;  // of the picture's width and height
 
