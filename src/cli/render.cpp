@@ -3,6 +3,7 @@
 // ltcfit render: spheres under a rectangular light, by sampled GGX and by a table.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -37,10 +38,23 @@ struct Arguments {
   int threads = default_threads();
 };
 
-// One rendered material.
-struct Result {
-  SphereRow row;
-  double seconds = 0;
+// The tables that are rendered with, and what the pictures call them.
+struct Tables {
+  std::vector<Table> tables;
+  std::vector<std::string> paths, names;
+
+  std::vector<const Table*> pointers() const {
+    std::vector<const Table*> all;
+    for (const Table& table : tables)
+      all.push_back(&table);
+    return all;
+  }
+};
+
+// Every material's images, and how long each took.
+struct Results {
+  std::vector<SphereRow> rows;
+  std::vector<double> seconds;
 };
 
 // Those of figure 14 of Aakash et al. 2022, unless one is asked for.
@@ -54,10 +68,17 @@ std::vector<Material> materials_of(const Arguments& arguments) {
   return {{0.05, 0.25, f0}, {0.5, 0.02, f0}, {0.5, 0.25, f0}, {0.5, 1.0, f0}};
 }
 
-Table load(const std::string& path) {
-  Table table = read_table(path);
-  fill_missing_albedo(table);
-  return table;
+Tables load_tables(const Arguments& arguments) {
+  Tables tables;
+  tables.paths = {arguments.table};
+  if (!arguments.table_b.empty())
+    tables.paths.push_back(arguments.table_b);
+  for (std::size_t i = 0; i < tables.paths.size(); ++i) {
+    tables.tables.push_back(read_table(tables.paths[i]));
+    fill_missing_albedo(tables.tables.back());
+    tables.names.push_back(tables.paths.size() == 1 ? "LTC" : i == 0 ? "LTC, A" : "LTC, B");
+  }
+  return tables;
 }
 
 // Where the files go: DIR/spheres.png and beside it, or, for a name that ends with .png, that file
@@ -79,35 +100,36 @@ Destination destination_of(const fs::path& output) {
   return {folder.empty() ? fs::path(".") : folder, output.stem().string()};
 }
 
-std::vector<Result> render_all(const Arguments& arguments, const std::vector<Material>& materials,
-                               const std::vector<const Table*>& tables, Progress& progress) {
-  std::vector<Result> results;
+Results render_all(const Arguments& arguments, const std::vector<Material>& materials,
+                   const Tables& tables, Progress& progress) {
+  Results results;
   for (const Material& material : materials) {
     const Clock::time_point began = Clock::now();
     const std::string stage = fmt::format("render {}, {}", material.alpha_x, material.alpha_y);
-    SphereImages images =
-        render_sphere(tables, material, arguments.settings, stage, arguments.threads, &progress);
-    const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
-    results.push_back({{material, std::move(images)}, seconds});
+    results.rows.push_back({material, render_sphere(tables.pointers(), material, arguments.settings,
+                                                    stage, arguments.threads, &progress)});
+    results.seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
   }
   return results;
 }
 
-void require_some_entries(const std::vector<Result>& results, std::size_t table,
-                          const std::string& path) {
-  for (const Result& result : results)
-    if (sphere_error(result.row.images, table).pixels > 0)
-      return;
-  throw InputError(
-      fmt::format("{}: has none of the entries that {} {} needs; expected a table "
-                  "fitted for these roughnesses",
-                  path, results.size() > 1 ? "materials" : "material",
-                  results.size() > 1 ? "of figure 14" : "asked for"));
+// A table made for a scene may lack entries; one that lacks all that are asked for is of no use.
+void require_some_entries(const Results& results, const Tables& tables) {
+  for (std::size_t table = 0; table < tables.paths.size(); ++table) {
+    const auto any = [&](const SphereRow& row) {
+      return sphere_error(row.images, table).pixels > 0;
+    };
+    if (std::none_of(results.rows.begin(), results.rows.end(), any))
+      throw InputError(fmt::format(
+          "{}: has none of the entries that these materials need; expected a table with entries "
+          "at, for example, alpha_x {} and alpha_y {}",
+          tables.paths[table], results.rows[0].material.alpha_x, results.rows[0].material.alpha_y));
+  }
 }
 
-void write_images(const Result& result, const Arguments& arguments, const fs::path& path) {
-  const SphereImages& images = result.row.images;
-  const Material& material = result.row.material;
+void write_images(const SphereRow& row, const Arguments& arguments, const fs::path& path) {
+  const SphereImages& images = row.images;
+  const Material& material = row.material;
   std::vector<picture::Field> differences;
   for (std::size_t table = 0; table < images.ltc.size(); ++table)
     differences.push_back(difference(images, table));
@@ -130,40 +152,51 @@ void write_images(const Result& result, const Arguments& arguments, const fs::pa
   write_image_exr(layers, attributes, path);
 }
 
-std::string report_text(const std::vector<Result>& results, const std::vector<std::string>& names) {
-  std::string text = "mean |error| and noise in units of the light's radiance\n\n";
-  text += fmt::format("{:>8} {:>8}  {:<24} {:>12} {:>14} {:>12} {:>8}\n", "alpha_x", "alpha_y",
-                      "table", "mean |error|", "RMSE/mean GGX", "noise of GGX", "seconds");
-  for (const Result& result : results)
-    for (std::size_t table = 0; table < names.size(); ++table) {
-      const SphereError error = sphere_error(result.row.images, table);
-      const Material& material = result.row.material;
-      text += fmt::format("{:>8} {:>8}  {:<24} ", material.alpha_x, material.alpha_y, names[table]);
-      if (error.pixels == 0)
-        text += "no entries for this material\n";
-      else
-        text += fmt::format("{:>12.5f} {:>12.2f} % {:>12.5f} {:>8.2f}\n", error.mean_absolute,
-                            100 * error.relative_rmse, error.standard_error, result.seconds);
-      if (error.pixels > 0 && error.without > 0)
-        text += fmt::format("{:19}{} of {} pixels without an entry\n", "", error.without,
-                            error.without + error.pixels);
-    }
+std::string row_text(const SphereRow& row, std::size_t table, const std::string& name,
+                     double seconds) {
+  const SphereError error = sphere_error(row.images, table);
+  std::string text =
+      fmt::format("{:>8} {:>8}  {:<7} ", row.material.alpha_x, row.material.alpha_y, name);
+  if (error.pixels == 0)
+    return text + "no entries for this material\n";
+  text += fmt::format("{:>12.5f} {:>12.2f} % {:>12.5f} {:>8.2f}\n", error.mean_absolute,
+                      100 * error.relative_rmse, error.standard_error, seconds);
+  if (error.without > 0)
+    text += fmt::format("{:19}{} of {} pixels without an entry\n", "", error.without,
+                        error.without + error.pixels);
   return text;
 }
 
-SpherePicture picture_of(const Arguments& arguments, std::vector<Result>& results) {
+// "Table: out/ltc.h5", or "A: out/ltc.h5, B: other.npy".
+std::string tables_text(const Tables& tables) {
+  if (tables.paths.size() == 1)
+    return "Table: " + tables.paths[0];
+  return fmt::format("A: {}, B: {}", tables.paths[0], tables.paths[1]);
+}
+
+std::string report_text(const Results& results, const Tables& tables) {
+  std::string text =
+      "mean |error| and noise (standard error of a pixel) in units of the light's "
+      "radiance\n\n";
+  text += fmt::format("{:>8} {:>8}  {:<7} {:>12} {:>14} {:>12} {:>8}\n", "alpha_x", "alpha_y",
+                      "table", "mean |error|", "RMSE/mean GGX", "noise of GGX", "seconds");
+  for (std::size_t row = 0; row < results.rows.size(); ++row)
+    for (std::size_t table = 0; table < tables.names.size(); ++table)
+      text += row_text(results.rows[row], table, tables.names[table], results.seconds[row]);
+  return text;
+}
+
+SpherePicture picture_of(const Arguments& arguments, const Tables& tables, Results results) {
   SpherePicture content;
   content.title = "Spheres under a rectangular light";
-  content.tables = {"LTC, table"};
-  if (!arguments.table_b.empty())
-    content.tables = {"LTC, table A", "LTC, table B"};
-  content.caption = fmt::format(
-      "x along the parallels about the upright axis, y along the meridians. GGX: multiple "
-      "importance "
-      "sampling, {} samples a pixel.",
-      arguments.settings.samples);
-  for (Result& result : results)
-    content.rows.push_back(std::move(result.row));
+  content.caption = {
+      fmt::format(
+          "x along the parallels about the upright axis, y along the meridians. GGX: multiple "
+          "importance sampling, {} samples a pixel.",
+          arguments.settings.samples),
+      tables_text(tables)};
+  content.tables = tables.names;
+  content.rows = std::move(results.rows);
   return content;
 }
 
@@ -171,31 +204,24 @@ void render(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
   const std::vector<Material> materials = materials_of(arguments);
-  const Table table = load(arguments.table);
-  std::vector<const Table*> tables{&table};
-  std::optional<Table> table_b;
-  std::vector<std::string> names{arguments.table};
-  if (!arguments.table_b.empty()) {
-    table_b = load(arguments.table_b);
-    tables.push_back(&*table_b);
-    names.push_back(arguments.table_b);
-  }
+  const Tables tables = load_tables(arguments);
   const Destination destination = destination_of(arguments.output);
   const OutputFolder folder(destination.folder);
 
-  std::vector<Result> results = render_all(arguments, materials, tables, progress);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    require_some_entries(results, i, names[i]);
-  std::string text = report_text(results, names);
+  Results results = render_all(arguments, materials, tables, progress);
+  require_some_entries(results, tables);
+  std::string text = report_text(results, tables) + "\nwrote ";
+  const SpherePicture content = picture_of(arguments, tables, std::move(results));
+  const picture::Canvas picture = draw(content);
+  // The last chance to stop.
   progress.throw_if_stopped();
-  for (const Result& result : results) {
-    const fs::path path = destination.images(result.row.material);
-    write_images(result, arguments, path);
-    text +=
-        fmt::format("{}{}\n", &result == &results.front() ? "\nwrote " : "      ", path.string());
+  for (const SphereRow& row : content.rows) {
+    const fs::path path = destination.images(row.material);
+    write_images(row, arguments, path);
+    text += path.string() + "\n      ";
   }
-  draw(picture_of(arguments, results)).write_png(destination.picture());
-  print(text + fmt::format("      {}\n", destination.picture().string()));
+  picture.write_png(destination.picture());
+  print(text + destination.picture().string() + "\n");
 }
 
 void add_number_option(CLI::App& app, const char* name, std::optional<double>& value,

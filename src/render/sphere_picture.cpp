@@ -117,13 +117,7 @@ class Painter {
   }
 
  private:
-  Words words() const {
-    Words words;
-    words.title = content_.title;
-    if (!content_.caption.empty())
-      words.lines_below = {content_.caption};
-    return words;
-  }
+  Words words() const { return {content_.title, "", content_.caption}; }
   double rows_side() const {
     const auto rows = static_cast<double>(content_.rows.size());
     return rows * side_ + (rows - 1) * gap * font_;

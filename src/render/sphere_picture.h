@@ -17,9 +17,10 @@ struct SphereRow {
 };
 
 struct SpherePicture {
-  std::string title, caption;       // a line each above and below; none where empty
-  std::vector<std::string> tables;  // what their columns are called
-  std::vector<SphereRow> rows;      // all images of one size
+  std::string title;
+  std::vector<std::string> caption;  // lines below
+  std::vector<std::string> tables;   // what their columns are called
+  std::vector<SphereRow> rows;       // all images of one size
 };
 
 // Radiance is shown in sRGB; a row's images share an exposure, which brings the brightest of GGX

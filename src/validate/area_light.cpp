@@ -24,9 +24,9 @@ constexpr double largest_size_factor = 2;  // and the smallest is its inverse
 AreaLightSettings checked(const AreaLightSettings& settings) {
   if (settings.quads < 1)
     throw InputError("area-light error over 0 quads; expected at least 1");
-  if (settings.samples < 2)
+  if (settings.samples < 64)
     throw InputError(
-        fmt::format("area-light error by {} samples; expected at least 2", settings.samples));
+        fmt::format("area-light error by {} samples; expected at least 64", settings.samples));
   return settings;
 }
 

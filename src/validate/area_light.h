@@ -17,7 +17,7 @@ namespace ltc {
 
 struct AreaLightSettings {
   std::size_t quads = 16;       // random rectangles a lobe, >= 1
-  std::size_t samples = 16384;  // weighted samples of the lobe, >= 2, in two independent halves
+  std::size_t samples = 16384;  // weighted samples of the lobe, >= 64, in two independent halves
   std::uint64_t seed = 20220712;
 };
 
