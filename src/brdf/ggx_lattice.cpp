@@ -8,17 +8,20 @@
 
 namespace ltc {
 
-VisibleNormalLattice::VisibleNormalLattice(std::size_t count)
+VisibleNormalLattice::VisibleNormalLattice(std::size_t count, double azimuth_shift,
+                                           double height_shift)
     : cos_azimuth_(static_cast<Eigen::Index>(count)),
       sin_azimuth_(static_cast<Eigen::Index>(count)),
       u_height_(static_cast<Eigen::Index>(count)) {
   const double golden = std::numbers::phi - 1;
   for (Eigen::Index i = 0; i < u_height_.size(); ++i) {
-    const double turns = golden * static_cast<double>(i);
+    const double turns = golden * static_cast<double>(i) + azimuth_shift;
     const double azimuth = 2 * std::numbers::pi * (turns - std::floor(turns));
     cos_azimuth_[i] = std::cos(azimuth);
     sin_azimuth_[i] = std::sin(azimuth);
-    u_height_[i] = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    const double height =
+        (static_cast<double>(i) + 0.5) / static_cast<double>(count) + height_shift;
+    u_height_[i] = height < 1 ? height : height - 1;
   }
 }
 

@@ -13,11 +13,12 @@ namespace ltc {
 
 // Points of the unit square that any lobe's samples are made from: the golden-ratio lattice
 // (frac(i (sqrt 5 - 1)/2), (i + 1/2)/count), which covers the cap of visible normals evenly for
-// every count.
+// every count. Lattices shifted on the torus by independent uniforms are independent estimates.
 class VisibleNormalLattice {
  public:
-  // `count` >= 1 points.
-  explicit VisibleNormalLattice(std::size_t count);
+  // `count` >= 1 points; the shifts are in [0, 1).
+  explicit VisibleNormalLattice(std::size_t count, double azimuth_shift = 0,
+                                double height_shift = 0);
 
   std::size_t size() const { return static_cast<std::size_t>(u_height_.size()); }
   const Eigen::ArrayXd& cos_azimuth() const { return cos_azimuth_; }

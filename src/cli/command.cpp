@@ -9,6 +9,7 @@ Action declare_generate(CLI::App& app);
 Action declare_fit(CLI::App& app);
 Action declare_diff(CLI::App& app);
 Action declare_bench(CLI::App& app);
+Action declare_render(CLI::App& app);
 
 std::span<const Command> commands() {
   static constexpr Command all[] = {
@@ -20,6 +21,8 @@ std::span<const Command> commands() {
        "tell which of two tables is nearer to GGX, and where", declare_diff},
       {"bench", "Compare and validate tables",
        "measure the run time and error of many settings in one run", declare_bench},
+      {"render", "Compare and validate tables", "render spheres with a table and with sampled GGX",
+       declare_render},
   };
   return all;
 }

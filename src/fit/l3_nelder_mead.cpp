@@ -127,12 +127,12 @@ L3NelderMeadSolver::L3NelderMeadSolver(const L3Settings& settings)
 double L3NelderMeadSolver::sliced_wasserstein_loss(const LobeFrame& frame,
                                                    const Eigen::Matrix3d& frame_matrix,
                                                    FitWorkspace& workspace) const {
-  TargetQuantiles& quantiles = workspace.fine_quantiles;
+  TargetQuantiles& quantiles = workspace.quantiles;
   quantiles.build(workspace.target, loss_directions_, loss_bins, workspace.model.xi,
                   workspace.model.bins);
   ModelValue value;
-  evaluate_model(frame, frame_matrix, loss_cosines_, quantiles, quantiles.spread(), workspace.model,
-                 value);
+  evaluate_model(frame, frame_matrix, loss_cosines_, quantiles, 1, quantiles.spread(),
+                 workspace.model, value);
   return value.loss;
 }
 

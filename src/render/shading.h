@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// Radiance that a point reflects from a rectangular light: by a table's LTC, exactly integrated,
+// and by sampling GGX, which is the reference.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "brdf/ggx_lattice.h"
+#include "render/sphere_scene.h"
+#include "table/table.h"
+
+namespace ltc {
+
+struct Material {
+  double alpha_x = 0.5, alpha_y = 0.5;
+  double f0 = 1;  // reflectance at normal incidence, of Schlick's Fresnel term
+
+  bool operator==(const Material&) const = default;
+};
+
+// (F0 amplitude + (1 - F0) fresnel) times the integral of the LTC over the light (equation 11 of
+// Heitz et al. 2016). The light is cut off at the point's horizon first, and then, transformed, at
+// that of the cosine. NaN where the table has no value or a matrix without an inverse.
+double ltc_radiance(const Table& table, const GgxLobe& lobe, double f0,
+                    const RectangleLight& light);
+
+// Which samples an estimate is made of. Every choice has the same mean.
+enum class Technique {
+  light,            // points uniform on the light's area
+  visible_normals,  // reflections about visible normals
+  both,             // as many of each, weighted by the balance heuristic (Veach 1997)
+};
+
+// Integrates GGX times Schlick's Fresnel term over a light with samples on shifted lattices.
+class ReferenceIntegrator {
+ public:
+  // `samples` >= 1 of each technique.
+  explicit ReferenceIntegrator(std::size_t samples, Technique technique = Technique::both);
+
+  // Independent uniforms on [0, 1) that shift the lattices: estimates with independent shifts are
+  // independent, each with the exact radiance as its mean.
+  using Shifts = std::array<double, 4>;
+  double radiance(const GgxLobe& lobe, double f0, const RectangleLight& light,
+                  const Shifts& shifts) const;
+
+ private:
+  Technique technique_;
+  VisibleNormalLattice lattice_;
+};
+
+}  // namespace ltc

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "render/sphere_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "picture/color_bar.h"
+#include "picture/text.h"
+
+namespace ltc {
+namespace {
+
+using namespace picture;
+
+constexpr double background = 0.02;  // behind the sphere, linear sRGB: the sphere is black there
+constexpr double brightest = 0.9;    // what the brightest of GGX becomes, likewise
+constexpr double least_side = 160;   // pixels of an image in the picture
+
+// Sizes in units of the font size.
+constexpr double margin = 1.2;
+constexpr double gap = 0.7;
+constexpr double table_gap = 1.4;  // before each table's columns
+constexpr double label_width = 9.2;
+constexpr double head_height = 1.9;
+
+// Positions 0 to 1 as sRGB greys.
+const ColorMap& greys() {
+  static const ColorMap map = [] {
+    std::vector<std::uint32_t> points;
+    for (std::uint32_t grey = 0; grey < 256; ++grey)
+      points.push_back(grey * 0x010101);
+    return ColorMap(points);
+  }();
+  return map;
+}
+
+double encode_srgb(double linear) {
+  const double x = std::clamp(linear, 0.0, 1.0);
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+}
+
+// Radiance times the exposure before the background, as greys.
+Field as_seen(const Field& radiance, const Field& coverage, double exposure) {
+  Field seen = radiance;
+  for (std::size_t i = 0; i < seen.values.size(); ++i) {
+    const double behind = (1 - static_cast<double>(coverage.values[i])) * background;
+    if (!std::isnan(radiance.values[i]))
+      seen.values[i] = static_cast<float>(encode_srgb(exposure * radiance.values[i] + behind));
+  }
+  return seen;
+}
+
+// The magnitude that all but the largest 0.2 % of the values keep below: a few pixels at a sharp
+// edge shall not pale all the others. Zero if there are none.
+double nearly_largest(std::vector<float> magnitudes) {
+  if (magnitudes.empty())
+    return 0;
+  const double rank = 0.998 * static_cast<double>(magnitudes.size() - 1);
+  const auto place = magnitudes.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(magnitudes.begin(), place, magnitudes.end());
+  return *place;
+}
+
+// The magnitudes of the pixels on the sphere that have a value.
+void add_magnitudes(const Field& field, const Field& coverage, std::vector<float>& magnitudes) {
+  for (std::size_t i = 0; i < field.values.size(); ++i)
+    if (coverage.values[i] > 0 && std::isfinite(field.values[i]))
+      magnitudes.push_back(std::abs(field.values[i]));
+}
+
+// The next round number up: 1, 2 or 5 times a power of ten.
+double rounded_up(double value) {
+  if (!(value > 1e-6))
+    return 1e-6;
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (value <= step * decade)
+      return step * decade;
+  return 10 * decade;
+}
+
+double exposure_of(const SphereImages& images) {
+  std::vector<float> magnitudes;
+  add_magnitudes(images.reference, images.coverage, magnitudes);
+  const double largest = nearly_largest(std::move(magnitudes));
+  return largest > 0 ? brightest / largest : 1;
+}
+
+ColorScale difference_colors(const SphereImages& images) {
+  std::vector<float> magnitudes;
+  for (std::size_t table = 0; table < images.ltc.size(); ++table)
+    add_magnitudes(difference(images, table), images.coverage, magnitudes);
+  const double bound = rounded_up(nearly_largest(std::move(magnitudes)));
+  return {Scale::linear(-bound, bound), &ColorMap::diverging(), "LTC − GGX"};
+}
+
+class Painter {
+ public:
+  explicit Painter(const SpherePicture& content)
+      : content_(content),
+        side_(std::max(least_side, static_cast<double>(content.rows[0].images.reference.width))),
+        font_(std::max(12.0, std::round(side_ / 17))),
+        canvas_(static_cast<int>(width()), static_cast<int>(height())) {}
+
+  Canvas paint() {
+    Box box = canvas_.area().inset(margin * font_);
+    box = draw_words(canvas_, box, words(), font_);
+    const Box heads = box.take_top(head_height * font_);
+    draw_heads(heads.bottom() - 0.5 * font_);
+    for (std::size_t row = 0; row < content_.rows.size(); ++row)
+      draw_row(row, std::round(box.top + static_cast<double>(row) * (side_ + gap * font_)));
+    return std::move(canvas_);
+  }
+
+ private:
+  Words words() const { return {content_.title, "", content_.caption}; }
+  double rows_side() const {
+    const auto rows = static_cast<double>(content_.rows.size());
+    return rows * side_ + (rows - 1) * gap * font_;
+  }
+  double left_of_reference() const { return std::round((margin + label_width) * font_); }
+  double left_of_table(std::size_t table) const {
+    const double pair = 2 * side_ + (gap + table_gap) * font_;
+    return std::round(left_of_reference() + side_ + table_gap * font_ +
+                      static_cast<double>(table) * pair);
+  }
+  double bar_left() const {
+    return left_of_table(content_.tables.size()) - (table_gap - 1) * font_;
+  }
+  double bar_width() const { return 6.5 * font_; }
+  double width() const { return std::ceil(bar_left() + bar_width() + margin * font_); }
+  double height() const {
+    const double around = -inside_words({0, 0, 0, 0}, words(), font_).height;
+    return std::ceil(around + (head_height + 2 * margin) * font_ + rows_side());
+  }
+
+  void head(double left, double baseline, const std::string& text) {
+    fitted_text(canvas_, {left + side_ / 2, baseline}, text,
+                {.size = font_, .horizontal = HorizontalAnchor::center, .bold = true}, side_);
+  }
+  void draw_heads(double baseline) {
+    head(left_of_reference(), baseline, "GGX, sampled");
+    for (std::size_t table = 0; table < content_.tables.size(); ++table) {
+      head(left_of_table(table), baseline, content_.tables[table]);
+      head(left_of_table(table) + side_ + gap * font_, baseline, "difference");
+    }
+  }
+
+  void draw_row(std::size_t index, double top) {
+    const SphereRow& row = content_.rows[index];
+    draw_label(row, top);
+    const ColorScale grey{Scale::linear(0, 1), &greys()};
+    const ColorScale colors = difference_colors(row.images);
+    const double exposure = exposure_of(row.images);
+    const auto radiance = [&](double left, const Field& field) {
+      canvas_.image(as_seen(field, row.images.coverage, exposure), grey, {left, top, side_, side_});
+    };
+    Beyond outside;
+    radiance(left_of_reference(), row.images.reference);
+    for (std::size_t table = 0; table < content_.tables.size(); ++table) {
+      radiance(left_of_table(table), row.images.ltc[table]);
+      const Field field = difference(row.images, table);
+      outside = outside | beyond(colors.scale, field.values);
+      const Box box{left_of_table(table) + std::round(side_ + gap * font_), top, side_, side_};
+      canvas_.image(field, colors, box);
+      canvas_.circle(box.center(), SphereScene{}.sphere_share * side_ / 2, {faint_ink, 1});
+    }
+    draw_upright_bar(canvas_, {bar_left(), top, bar_width(), side_}, colors, 0.8 * font_, outside);
+  }
+
+  void draw_label(const SphereRow& row, double top) {
+    double baseline = top + 1.2 * font_;
+    const double width = (label_width - 0.8) * font_;
+    const auto line = [&](const std::string& text, bool bold, double size) {
+      fitted_text(canvas_, {margin * font_, baseline}, text,
+                  {.size = size * font_, .color = bold ? ink : faint_ink, .bold = bold}, width);
+      baseline += line_spacing * size * font_;
+    };
+    line(fmt::format("αx = {}", format_value(row.material.alpha_x)), true, 1);
+    line(fmt::format("αy = {}", format_value(row.material.alpha_y)), true, 1);
+    if (row.material.f0 != 1)
+      line(fmt::format("F0 = {}", format_value(row.material.f0)), true, 1);
+    line(fmt::format("shown {:.2g} × as bright", exposure_of(row.images)), false, 0.8);
+    for (std::size_t table = 0; table < content_.tables.size(); ++table) {
+      const SphereError error = sphere_error(row.images, table);
+      baseline += 0.6 * font_;
+      if (content_.tables.size() > 1)
+        line(content_.tables[table], false, 0.8);
+      if (error.pixels > 0) {
+        line(fmt::format("mean |error| {:.4f}", error.mean_absolute), false, 0.8);
+        line(fmt::format("RMSE {:.1f} % of mean", 100 * error.relative_rmse), false, 0.8);
+      }
+      if (error.without > 0)
+        line(fmt::format("{} pixels without entry", error.without), false, 0.8);
+    }
+  }
+
+  const SpherePicture& content_;
+  double side_, font_;
+  Canvas canvas_;
+};
+
+}  // namespace
+
+Canvas draw(const SpherePicture& content) {
+  if (content.rows.empty() || content.tables.empty())
+    throw InputError("a picture of spheres without a material or a table");
+  return Painter(content).paint();
+}
+
+}  // namespace ltc

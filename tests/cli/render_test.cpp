@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// ltcfit render as a user runs it.
+#include <gtest/gtest.h>
+
+#include "export/hdf5.h"
+#include "export/npy.h"
+#include "support/program.h"
+#include "support/refusal.h"
+#include "table/synthetic.h"
+
+namespace ltc::test {
+namespace {
+
+class Render : public ::testing::Test {
+ protected:
+  Render() {
+    write_hdf5(testing::synthetic_table(Grid::paper(3), Storage::mirror_frame), folder_ / "t.h5");
+    write_npy(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder_ / "t.npy");
+  }
+
+  // Small and coarse, in the test's folder.
+  ProgramResult run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render"});
+    arguments.insert(arguments.end(), {"--size", "8", "--samples", "16"});
+    return run_ltcfit(arguments, folder_.path());
+  }
+
+  TemporaryDirectory folder_;
+};
+
+TEST_F(Render, WritesAPictureAndTheImagesOfFourMaterials) {
+  const ProgramResult result = run({"t.h5", "-o", "spheres"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<std::string> expected{"spheres.png", "spheres_0.05_0.25.exr",
+                                          "spheres_0.5_0.02.exr", "spheres_0.5_0.25.exr",
+                                          "spheres_0.5_1.exr"};
+  EXPECT_EQ(names_in(folder_ / "spheres"), expected);
+  EXPECT_EQ(read_file(folder_ / "spheres/spheres.png").substr(1, 3), "PNG");
+  for (const std::string& name : expected)
+    EXPECT_NE(result.out.find(name), std::string::npos) << name;
+  for (const char* part : {"mean |error|", "RMSE", "noise", "seconds"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+}
+
+TEST_F(Render, ComparesTwoTablesInOneMaterial) {
+  const ProgramResult result = run({"t.h5", "--table-b", "t.npy", "--alpha-x", "0.2", "--alpha-y",
+                                    "0.4", "--f0", "0.04", "-o", "made/two.png"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(names_in(folder_ / "made"), (std::vector<std::string>{"two.png", "two_0.2_0.4.exr"}));
+  EXPECT_NE(result.out.find("B: t.npy"), std::string::npos) << result.out;
+  EXPECT_NE(read_file(folder_ / "made/two_0.2_0.4.exr").find("difference_b.Y"), std::string::npos);
+}
+
+TEST_F(Render, WritesTheSameBytesWithAnyNumberOfThreads) {
+  for (const char* threads : {"1", "3"})
+    EXPECT_EQ(run({"t.h5", "--alpha-x", "0.3", "--alpha-y", "0.1", "-t", threads, "-o",
+                   std::string("o") + threads})
+                  .exit_code,
+              0);
+  for (const char* name : {"spheres.png", "spheres_0.3_0.1.exr"})
+    EXPECT_EQ(read_file(folder_ / "o1" / name), read_file(folder_ / "o3" / name)) << name;
+}
+
+TEST_F(Render, RefusesBadInputInOneLineAndWritesNothing) {
+  write_hdf5(Table::empty(Grid::paper(2), Storage::matrix), folder_ / "empty.h5");
+  folder_.write("no.h5", "not a table");
+  const auto expect_refusal = [&](const std::vector<std::string>& arguments, int exit_code,
+                                  const std::vector<std::string>& parts) {
+    const std::vector<std::string> before = names_in(folder_.path());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_EQ(result.out, "");
+    // Progress may precede it.
+    const std::size_t begin = result.err.find("ltcfit: ");
+    ASSERT_NE(begin, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.back(), '\n');
+    expect_one_line(result.err.substr(begin, result.err.size() - begin - 1), parts);
+    EXPECT_EQ(names_in(folder_.path()), before);
+  };
+  expect_refusal({}, 2, {"TABLE"});
+  expect_refusal({"missing.h5"}, 3, {"missing.h5"});
+  expect_refusal({"no.h5"}, 2, {"no.h5"});
+  expect_refusal({"t.h5", "--table-b", "no.h5"}, 2, {"no.h5"});
+  expect_refusal({"empty.h5"}, 2, {"empty.h5", "none of the entries"});
+  expect_refusal({"t.h5", "--alpha-x", "0.5"}, 2, {"--alpha-x", "--alpha-y"});
+  expect_refusal({"t.h5", "--alpha-x", "0.5", "--alpha-y", "1.5"}, 2, {"--alpha-y", "1.5"});
+  expect_refusal({"t.h5", "--f0", "nan"}, 2, {"nan"});
+  expect_refusal({"t.h5", "--output", ""}, 2, {"--output", "empty"});
+  expect_refusal({"t.h5", "--threads", "0"}, 2, {"--threads", "0"});
+}
+
+}  // namespace
+}  // namespace ltc::test

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "render/shading.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "brdf/albedo.h"
+#include "core/random.h"
+#include "ltc/ltsd.h"
+#include "table/lookup.h"
+#include "table/synthetic.h"
+
+namespace ltc {
+namespace {
+
+const GgxLobe kLobes[] = {
+    {0.5, 0.2, 0.8, 0.6}, {0.05, 0.25, 0.4, 2.0}, {1, 0.3, 1.3, 4.0}, {0.3, 0.3, 0, 0}};
+
+// In the upper hemisphere, and through the horizon.
+const RectangleLight kAbove = SphereScene::facing_origin({-0.6, -0.3, 1.2}, 0.5, 0.3);
+const RectangleLight kAcross = SphereScene::facing_origin({-1.2, -0.4, 0.3}, 0.5, 0.6);
+
+// Covers the upper hemisphere but for 1e-6 of its height.
+const RectangleLight kSky{{0, 0, 1}, {0, 1e6, 0}, {1e6, 0, 0}};
+
+struct Estimate {
+  double mean, standard_error;
+};
+Estimate estimate(Technique technique, const GgxLobe& lobe, double f0,
+                  const RectangleLight& light) {
+  constexpr int replicates = 64;
+  const ReferenceIntegrator integrator(64, technique);
+  Random random(3);
+  double sum = 0, squares = 0;
+  for (int i = 0; i < replicates; ++i) {
+    ReferenceIntegrator::Shifts shifts;
+    for (double& shift : shifts)
+      shift = random.uniform();
+    const double value = integrator.radiance(lobe, f0, light, shifts);
+    sum += value;
+    squares += value * value;
+  }
+  const double mean = sum / replicates;
+  return {mean, std::sqrt((squares / replicates - mean * mean) / (replicates - 1))};
+}
+
+// At most 5 standard errors apart: over the 16 comparisons below a right estimator fails with
+// probability 1e-5.
+bool agree(const Estimate& a, const Estimate& b) {
+  return std::abs(a.mean - b.mean) <= 5 * std::hypot(a.standard_error, b.standard_error);
+}
+
+TEST(Reference, AllTechniquesHaveOneMean) {
+  for (const GgxLobe& lobe : kLobes)
+    for (const RectangleLight& light : {kAbove, kAcross}) {
+      const Estimate both = estimate(Technique::both, lobe, 0.2, light);
+      const Estimate area = estimate(Technique::light, lobe, 0.2, light);
+      const Estimate normals = estimate(Technique::visible_normals, lobe, 0.2, light);
+      EXPECT_GT(both.mean, 0);
+      EXPECT_TRUE(agree(both, area)) << both.mean << ' ' << area.mean;
+      EXPECT_TRUE(agree(both, normals)) << both.mean << ' ' << normals.mean;
+      // Neither is much better than both together.
+      EXPECT_LT(both.standard_error, 1.5 * std::min(area.standard_error, normals.standard_error));
+    }
+  // The comparison tells a reflectance that is 10 % off.
+  EXPECT_FALSE(agree(estimate(Technique::both, kLobes[0], 1, kAbove),
+                     estimate(Technique::light, kLobes[0], 0.9, kAbove)));
+}
+
+TEST(Reference, LightFromEverywhereGivesTheAlbedo) {
+  const AlbedoRule rule;
+  for (const GgxLobe& lobe : kLobes) {
+    const Albedo albedo = integrate_albedo(lobe, rule);
+    for (const double f0 : {1.0, 0.0}) {
+      const Estimate sky = estimate(Technique::both, lobe, f0, kSky);
+      const double expected = f0 == 1 ? albedo.amplitude : albedo.fresnel;
+      // 1e-4 is the bound of the quadrature.
+      EXPECT_NEAR(sky.mean, expected, 5 * sky.standard_error + 1e-4);
+      EXPECT_LT(sky.standard_error, 2e-3);
+    }
+  }
+}
+
+TEST(Reference, SeesNoLightFromBelowOrBehind) {
+  const ReferenceIntegrator integrator(16);
+  const ReferenceIntegrator::Shifts shifts{};
+  const RectangleLight below = SphereScene::facing_origin({0, 0.2, -1}, 0.2, 0.2);
+  RectangleLight averted = kAbove;
+  averted.half_u *= -1;
+  const Table table = testing::synthetic_table(Grid::paper(3), Storage::matrix);
+  for (const RectangleLight& light : {below, averted}) {
+    EXPECT_EQ(integrator.radiance(kLobes[0], 1, light, shifts), 0);
+    EXPECT_EQ(ltc_radiance(table, kLobes[0], 1, light), 0);
+  }
+  EXPECT_GT(integrator.radiance(kLobes[0], 1, kAbove, shifts), 0);
+}
+
+TEST(LtcRadiance, IsTheShareOfTheLobesSamplesOnTheLight) {
+  const Table table = testing::synthetic_table(Grid::paper(4), Storage::mirror_frame);
+  // Each quadrant of phi and both orders of the roughnesses, so that the look-up mirrors.
+  for (int i = 0; i < 8; ++i) {
+    const double phi = 0.5 + 1.5707963267948966 * (i % 4);
+    const GgxLobe lobe{i < 4 ? 0.5 : 0.3, i < 4 ? 0.3 : 0.5, 0.7, phi};
+    const Eigen::Vector3d v = lobe.omega_v();
+    const RectangleLight light =
+        SphereScene::facing_origin({-v.x(), -v.y(), 0.7 * v.z()}, 0.4, 0.6);
+    const LookUp found = look_up(table, lobe);
+    const LinearlyTransformed cosine(found.matrix);
+    Random random(11);
+    constexpr int samples = 20000;
+    int hits = 0;
+    for (int k = 0; k < samples; ++k) {
+      const double u = random.uniform();
+      const Eigen::Vector3d omega = cosine.sample(u, random.uniform());
+      const double towards = omega.dot(light.normal());
+      if (omega.z() < 0 || towards >= 0)
+        continue;
+      const Eigen::Vector3d hit =
+          omega * (light.center.dot(light.normal()) / towards) - light.center;
+      hits += std::abs(hit.dot(light.half_u)) < light.half_u.squaredNorm() &&
+              std::abs(hit.dot(light.half_v)) < light.half_v.squaredNorm();
+    }
+    const double share = hits / static_cast<double>(samples);
+    ASSERT_GT(share, 0.1);
+    const double f0 = 0.3, albedo = f0 * found.amplitude + (1 - f0) * found.fresnel;
+    // 4.5 standard deviations of a binomial: probability 5e-5 over the eight.
+    EXPECT_NEAR(ltc_radiance(table, lobe, f0, light) / albedo, share,
+                4.5 * std::sqrt(share * (1 - share) / samples));
+  }
+}
+
+TEST(LtcRadiance, LightFromEverywhereGivesTheAlbedo) {
+  const Table table = testing::synthetic_table(Grid::paper(3), Storage::matrix);
+  // A view from above: the lobe lies in the upper hemisphere.
+  const GgxLobe lobe{0.5, 0.25, 0, 0};
+  const LookUp found = look_up(table, lobe);
+  for (const double f0 : {0.0, 0.25, 1.0})
+    // The strip that the light leaves free, 1e-6 high.
+    EXPECT_NEAR(ltc_radiance(table, lobe, f0, kSky),
+                f0 * found.amplitude + (1 - f0) * found.fresnel, 1e-5);
+}
+
+TEST(LtcRadiance, IsGgxWhereGgxIsAnLtc) {
+  // A sharp lobe at the only node of a table: the closed form is GGX to first order in alpha.
+  Grid grid;
+  grid.alpha = Axis::make(0.01, 0.01, 1, Warp::linear);
+  grid.lambda = Axis::make(0.5, 0.5, 1, Warp::linear);
+  grid.theta = Axis::make(0.6, 0.6, 1, Warp::linear);
+  grid.phi = Axis::make(0.4, 0.4, 1, Warp::linear);
+  Table table = testing::synthetic_table(grid, Storage::matrix);
+  const GgxLobe lobe{0.01, 0.005, 0.6, 0.4};
+  table.amplitude[0] = static_cast<float>(integrate_albedo(lobe, AlbedoRule()).amplitude);
+  // Its edge runs through the lobe.
+  const Eigen::Vector3d v = lobe.omega_v();
+  const RectangleLight light =
+      SphereScene::facing_origin({-v.x() - 0.1, -v.y(), v.z() + 0.1}, 0.14, 0.14);
+  const Estimate ggx = estimate(Technique::both, lobe, 1, light);
+  ASSERT_GT(ggx.mean, 0.1);
+  ASSERT_LT(ggx.mean, 0.95);
+  EXPECT_NEAR(ltc_radiance(table, lobe, 1, light), ggx.mean, 5 * ggx.standard_error + 0.01);
+  // A lobe three times as wide is told apart.
+  table.set_stored(0, table.stored_at(0) * Eigen::Vector3d(3, 3, 1).asDiagonal());
+  EXPECT_GT(std::abs(ltc_radiance(table, lobe, 1, light) - ggx.mean),
+            5 * ggx.standard_error + 0.01);
+}
+
+TEST(LtcRadiance, IsNaNWhereTheTableHasNothing) {
+  const Table table = Table::empty(Grid::paper(3), Storage::matrix);
+  EXPECT_TRUE(std::isnan(ltc_radiance(table, kLobes[0], 1, kAbove)));
+}
+
+}  // namespace
+}  // namespace ltc
