@@ -16,7 +16,7 @@ namespace {
 // Blocks of neighbouring quantiles a direction: finer ones stop paying and coarser ones begin to
 // blur the tails.
 std::size_t bins_for(int samples) {
-  return static_cast<std::size_t>(std::clamp(samples / 32 / 16 * 16, 32, 256));
+  return static_cast<std::size_t>(std::clamp(samples / 64 / 16 * 16, 32, 256));
 }
 
 // A lobe whose loss is r of its spread is fitted with at least this over r samples: the share that
@@ -125,16 +125,30 @@ FitResult GaussNewtonSolver::analytic_result(const LobeFrame& frame,
   return {frame.to_matrix(p), value.loss, 0, FitOutcome::analytic};
 }
 
+double GaussNewtonSolver::coarse_loss(const LobeFrame& frame, const Eigen::Matrix3d& start,
+                                      FitWorkspace& workspace) const {
+  ModelValue value;
+  evaluate_model(frame, start, coarse_.cosines, workspace.quantiles,
+                 coarse_.options.direction_stride, workspace.quantiles.spread(), workspace.model,
+                 value);
+  return value.loss;
+}
+
 Descent GaussNewtonSolver::best_coarse_descent(const LobeFrame& frame,
                                                const std::vector<Eigen::Matrix3d>& starts,
                                                DescentOptions options, FitWorkspace& workspace,
                                                FitResult& result,
                                                std::vector<FitStep>* trace) const {
   const FreeEntries free = free_entries(frame.lobe);
+  std::vector<double> losses;
+  for (const Eigen::Matrix3d& start : starts)
+    losses.push_back(usable(start) ? coarse_loss(frame, start, workspace)
+                                   : std::numeric_limits<double>::infinity());
+  const double least = *std::min_element(losses.begin(), losses.end());
   Descent best;
   best.loss = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (!usable(starts[i]))
+    if (!(losses[i] <= std::max(least, settings_.hopeless_start * least)))
       continue;
     options.phase = static_cast<int>(i);
     const Descent descent = minimise(frame, starts[i], free, coarse_.cosines, workspace.quantiles,
@@ -151,15 +165,12 @@ std::vector<Eigen::Matrix3d> GaussNewtonSolver::promising(
     FitWorkspace& workspace) const {
   std::vector<Eigen::Matrix3d> kept;
   double best = promising_share * loss_to_beat;
-  ModelValue value;
   for (const Eigen::Matrix3d& start : starts) {
     if (!usable(start))
       continue;
-    evaluate_model(frame, start, coarse_.cosines, workspace.quantiles,
-                   coarse_.options.direction_stride, workspace.quantiles.spread(), workspace.model,
-                   value);
-    if (value.loss < best) {
-      best = value.loss;
+    const double loss = coarse_loss(frame, start, workspace);
+    if (loss < best) {
+      best = loss;
       kept.assign(1, start);
     }
   }

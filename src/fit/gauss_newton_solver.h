@@ -38,6 +38,9 @@ class GaussNewtonSolver final : public Solver {
   Descent climb(const LobeFrame& frame, const FitRequest& request, Descent descent,
                 DescentOptions watched, FitWorkspace& workspace, FitResult& result,
                 std::vector<FitStep>* trace) const;
+  double coarse_loss(const LobeFrame& frame, const Eigen::Matrix3d& start,
+                     FitWorkspace& workspace) const;
+  // From every start whose loss is not hopeless beside the least.
   Descent best_coarse_descent(const LobeFrame& frame, const std::vector<Eigen::Matrix3d>& starts,
                               DescentOptions options, FitWorkspace& workspace, FitResult& result,
                               std::vector<FitStep>* trace) const;

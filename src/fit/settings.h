@@ -18,18 +18,21 @@ struct GaussNewtonSettings {
   int coarse_samples = 256;    // cosine samples of the coarse phase, [64, 65536]
   int coarse_directions = 16;  // projection directions of the coarse phase, [4, 4096]
   int coarse_steps = 12;       // most steps of the coarse phase, [0, 1000]
-  int samples = 2048;          // cosine samples of the fine phase, [64, 65536]
+  int samples = 4096;          // cosine samples of the fine phase, [64, 65536]
   int directions = 32;         // projection directions of the fine phase, [4, 4096]
   int steps = 12;              // most steps of the fine phase, [1, 1000]
-  int target_samples = 4096;   // GGX samples that the target's quantiles come from, [64, 1048576]
+  int target_samples = 8192;   // GGX samples that the target's quantiles come from, [64, 1048576]
   // A phase ends when a step gains less than this share of the loss, [0, 1].
   double coarse_tolerance = 3e-3;
   double tolerance = 3e-4;
   // Lobes that no LTC comes near are fitted with down to a quarter of the samples: what is left of
   // their loss is not noise.
   bool adaptive = true;
-  int starts = 2;            // starting points tried in the coarse phase, [1, 16]
-  int neighbour_sweeps = 1;  // how often an entry tries its neighbours' solutions, [0, 16]
+  int starts = 2;  // starting points tried in the coarse phase, [1, 16]
+  // A start is descended from where its loss is at most this many times the least of them, [1,
+  // 1e9].
+  double hopeless_start = 1.5;
+  int neighbour_sweeps = 0;  // how often an entry tries its neighbours' solutions, [0, 16]
 };
 
 // Algorithm 3 of Aakash et al. 2022: stochastic gradient descent, step size
