@@ -175,9 +175,9 @@ std::string tables_text(const Tables& tables) {
 }
 
 std::string report_text(const Results& results, const Tables& tables) {
-  std::string text =
-      "mean |error| and noise (standard error of a pixel) in units of the light's "
-      "radiance\n\n";
+  std::string text = fmt::format(
+      "{}\nmean |error| and noise (standard error of a pixel) in units of the light's radiance\n\n",
+      tables_text(tables));
   text += fmt::format("{:>8} {:>8}  {:<7} {:>12} {:>14} {:>12} {:>8}\n", "alpha_x", "alpha_y",
                       "table", "mean |error|", "RMSE/mean GGX", "noise of GGX", "seconds");
   for (std::size_t row = 0; row < results.rows.size(); ++row)
