@@ -194,7 +194,7 @@ SpherePicture picture_of(const Arguments& arguments, const Tables& tables, Resul
           "x along the parallels about the upright axis, y along the meridians. GGX: multiple "
           "importance sampling, {} samples a pixel.",
           arguments.settings.samples),
-      tables_text(tables)};
+      "Differences and errors are in units of the light's radiance. " + tables_text(tables)};
   content.tables = tables.names;
   content.rows = std::move(results.rows);
   return content;
@@ -255,7 +255,7 @@ Action declare_render(CLI::App& app) {
       ->option_text("N")
       ->group("How to render");
   app.add_option("--samples", arguments->settings.samples,
-                 "samples of the GGX reference a pixel, rounded up to a multiple of 16 [1024]")
+                 "samples of the GGX reference a pixel, rounded up to a multiple of 16 [2048]")
       ->check(CLI::Range(16, 1 << 20))
       ->option_text("N")
       ->group("How to render");
