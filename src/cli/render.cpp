@@ -175,9 +175,9 @@ std::string tables_text(const Tables& tables) {
 }
 
 std::string report_text(const Results& results, const Tables& tables) {
-  std::string text =
-      "mean |error| and noise (standard error of a pixel) in units of the light's "
-      "radiance\n\n";
+  std::string text = fmt::format(
+      "{}\nmean |error| and noise (standard error of a pixel) in units of the light's radiance\n\n",
+      tables_text(tables));
   text += fmt::format("{:>8} {:>8}  {:<7} {:>12} {:>14} {:>12} {:>8}\n", "alpha_x", "alpha_y",
                       "table", "mean |error|", "RMSE/mean GGX", "noise of GGX", "seconds");
   for (std::size_t row = 0; row < results.rows.size(); ++row)
@@ -194,7 +194,7 @@ SpherePicture picture_of(const Arguments& arguments, const Tables& tables, Resul
           "x along the parallels about the upright axis, y along the meridians. GGX: multiple "
           "importance sampling, {} samples a pixel.",
           arguments.settings.samples),
-      tables_text(tables)};
+      "Differences and errors are in units of the light's radiance. " + tables_text(tables)};
   content.tables = tables.names;
   content.rows = std::move(results.rows);
   return content;
@@ -255,7 +255,7 @@ Action declare_render(CLI::App& app) {
       ->option_text("N")
       ->group("How to render");
   app.add_option("--samples", arguments->settings.samples,
-                 "samples of the GGX reference a pixel, rounded up to a multiple of 16 [1024]")
+                 "samples of the GGX reference a pixel, rounded up to a multiple of 16 [2048]")
       ->check(CLI::Range(16, 1 << 20))
       ->option_text("N")
       ->group("How to render");

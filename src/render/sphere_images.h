@@ -18,7 +18,7 @@ namespace ltc {
 struct SphereSettings {
   SphereScene scene;
   std::size_t size = 320;      // pixels, width and height
-  std::size_t samples = 1024;  // of the reference, a pixel; rounded up to a multiple of 16
+  std::size_t samples = 2048;  // of the reference, a pixel; rounded up to a multiple of 16
 };
 
 // Square images, one value a pixel: radiance over that of the light, 0 where the sphere is not. A

@@ -74,11 +74,13 @@ void add_magnitudes(const Field& field, const Field& coverage, std::vector<float
 
 // The next round number up: 1, 2 or 5 times a power of ten.
 double rounded_up(double value) {
-  if (!(value > 1e-6))
-    return 1e-6;
+  constexpr double slack = 1e-6;  // of single precision
+  constexpr double least = 1e-6;
+  if (!(value > least))
+    return least;
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
   for (const double step : {1.0, 2.0, 5.0})
-    if (value <= step * decade)
+    if (value <= step * decade * (1 + slack))
       return step * decade;
   return 10 * decade;
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,9 +20,15 @@ namespace {
 const GgxLobe kLobes[] = {
     {0.5, 0.2, 0.8, 0.6}, {0.05, 0.25, 0.4, 2.0}, {1, 0.3, 1.3, 4.0}, {0.3, 0.3, 0, 0}};
 
-// In the upper hemisphere, and through the horizon.
-const RectangleLight kAbove = SphereScene::facing_origin({-0.6, -0.3, 1.2}, 0.5, 0.3);
-const RectangleLight kAcross = SphereScene::facing_origin({-1.2, -0.4, 0.3}, 0.5, 0.6);
+// A light that the mirror direction leads past, and one that stands across the horizon.
+RectangleLight beside_mirror(const GgxLobe& lobe) {
+  const Eigen::Vector3d v = lobe.omega_v();
+  return SphereScene::facing_origin({-v.x() - 0.2, -v.y() - 0.1, v.z() + 0.1}, 0.5, 0.3);
+}
+RectangleLight across_horizon(const GgxLobe& lobe) {
+  const Eigen::Vector3d v = lobe.omega_v();
+  return SphereScene::facing_origin({-v.x() - 0.3, -v.y(), 0.2}, 0.6, 0.6);
+}
 
 // Covers the upper hemisphere but for 1e-6 of its height.
 const RectangleLight kSky{{0, 0, 1}, {0, 1e6, 0}, {1e6, 0, 0}};
@@ -55,19 +62,20 @@ bool agree(const Estimate& a, const Estimate& b) {
 
 TEST(Reference, AllTechniquesHaveOneMean) {
   for (const GgxLobe& lobe : kLobes)
-    for (const RectangleLight& light : {kAbove, kAcross}) {
+    for (const RectangleLight& light : {beside_mirror(lobe), across_horizon(lobe)}) {
       const Estimate both = estimate(Technique::both, lobe, 0.2, light);
       const Estimate area = estimate(Technique::light, lobe, 0.2, light);
       const Estimate normals = estimate(Technique::visible_normals, lobe, 0.2, light);
       EXPECT_GT(both.mean, 0);
       EXPECT_TRUE(agree(both, area)) << both.mean << ' ' << area.mean;
       EXPECT_TRUE(agree(both, normals)) << both.mean << ' ' << normals.mean;
-      // Neither is much better than both together.
-      EXPECT_LT(both.standard_error, 1.5 * std::min(area.standard_error, normals.standard_error));
+      // Both together avoid the worse of the two. Not so the better one: over a smooth integrand a
+      // lattice on the light alone has hardly any noise.
+      EXPECT_LT(both.standard_error, std::max(area.standard_error, normals.standard_error));
     }
   // The comparison tells a reflectance that is 10 % off.
-  EXPECT_FALSE(agree(estimate(Technique::both, kLobes[0], 1, kAbove),
-                     estimate(Technique::light, kLobes[0], 0.9, kAbove)));
+  EXPECT_FALSE(agree(estimate(Technique::both, kLobes[0], 1, beside_mirror(kLobes[0])),
+                     estimate(Technique::light, kLobes[0], 0.9, beside_mirror(kLobes[0]))));
 }
 
 TEST(Reference, LightFromEverywhereGivesTheAlbedo) {
@@ -88,14 +96,15 @@ TEST(Reference, SeesNoLightFromBelowOrBehind) {
   const ReferenceIntegrator integrator(16);
   const ReferenceIntegrator::Shifts shifts{};
   const RectangleLight below = SphereScene::facing_origin({0, 0.2, -1}, 0.2, 0.2);
-  RectangleLight averted = kAbove;
+  const RectangleLight lit = beside_mirror(kLobes[0]);
+  RectangleLight averted = lit;
   averted.half_u *= -1;
   const Table table = testing::synthetic_table(Grid::paper(3), Storage::matrix);
   for (const RectangleLight& light : {below, averted}) {
     EXPECT_EQ(integrator.radiance(kLobes[0], 1, light, shifts), 0);
     EXPECT_EQ(ltc_radiance(table, kLobes[0], 1, light), 0);
   }
-  EXPECT_GT(integrator.radiance(kLobes[0], 1, kAbove, shifts), 0);
+  EXPECT_GT(integrator.radiance(kLobes[0], 1, lit, shifts), 0);
 }
 
 TEST(LtcRadiance, IsTheShareOfTheLobesSamplesOnTheLight) {
@@ -156,7 +165,7 @@ TEST(LtcRadiance, IsGgxWhereGgxIsAnLtc) {
   // Its edge runs through the lobe.
   const Eigen::Vector3d v = lobe.omega_v();
   const RectangleLight light =
-      SphereScene::facing_origin({-v.x() - 0.1, -v.y(), v.z() + 0.1}, 0.14, 0.14);
+      SphereScene::facing_origin({-v.x() - 0.15, -v.y(), v.z()}, 0.14, 0.14);
   const Estimate ggx = estimate(Technique::both, lobe, 1, light);
   ASSERT_GT(ggx.mean, 0.1);
   ASSERT_LT(ggx.mean, 0.95);
@@ -169,7 +178,7 @@ TEST(LtcRadiance, IsGgxWhereGgxIsAnLtc) {
 
 TEST(LtcRadiance, IsNaNWhereTheTableHasNothing) {
   const Table table = Table::empty(Grid::paper(3), Storage::matrix);
-  EXPECT_TRUE(std::isnan(ltc_radiance(table, kLobes[0], 1, kAbove)));
+  EXPECT_TRUE(std::isnan(ltc_radiance(table, kLobes[0], 1, beside_mirror(kLobes[0]))));
 }
 
 }  // namespace
