@@ -26,9 +26,9 @@ FitSettings with_starts(int starts) {
   return fit;
 }
 
-FitSettings without_sweep() {
+FitSettings with_sweep() {
   FitSettings fit;
-  fit.gauss_newton.neighbour_sweeps = 0;
+  fit.gauss_newton.neighbour_sweeps = 1;
   return fit;
 }
 
@@ -48,7 +48,9 @@ FitSettings reference() {
   fit.gauss_newton.coarse_tolerance = 1e-3;
   fit.gauss_newton.steps = 60;
   fit.gauss_newton.tolerance = 1e-5;
+  fit.gauss_newton.adaptive = false;
   fit.gauss_newton.starts = 6;
+  fit.gauss_newton.start_margin = 1e9;
   fit.gauss_newton.neighbour_sweeps = 0;
   return fit;
 }
@@ -98,13 +100,14 @@ std::vector<BenchSetting> bench_settings(std::uint64_t seed) {
       {"gn-256x16", "256 × 16", "256 samples, 16 directions", gauss_newton(256, 16, 1024)},
       {"gn-512x24", "512 × 24", "512 samples, 24 directions", gauss_newton(512, 24, 2048)},
       {"gn-1024x32", "1024 × 32", "1024 samples, 32 directions", gauss_newton(1024, 32, 4096)},
-      {"default", "default", "config/default.toml: 2048 samples, 32 directions, 2 starts, a sweep",
+      {"default", "default", "config/default.toml: up to 4096 samples, 32 directions, 2 starts",
        FitSettings{}},
       {"gn-4096x64", "4096 × 64", "4096 samples, 64 directions", gauss_newton(4096, 64, 16384)},
       {"reference", "reference", "config/reference.toml without sweeps", reference()},
       {"default-1-start", "1 start", "the default from one starting point", with_starts(1)},
       {"default-3-starts", "3 starts", "the default from three starting points", with_starts(3)},
-      {"default-no-sweep", "no sweep", "the default without trying neighbours", without_sweep()},
+      {"default-sweep", "sweep", "the default, then trying its neighbours' solutions",
+       with_sweep()},
       {"default-rejection", "rejection", "the default with the published target", rejection()},
       {"sgd-practical", "SGD, practical", "config/sgd.toml: scaled descent, 300 steps",
        sgd_practical()},

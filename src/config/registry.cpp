@@ -69,7 +69,7 @@ std::vector<Key> fit_keys() {
       key("fit.gauss_newton.target_samples", [](Draft& d) { return &d.config.fit.gauss_newton.target_samples; }, {64, 1048576}, "GGX samples that the target's quantiles come from"),
       key("fit.gauss_newton.adaptive", [](Draft& d) { return &d.config.fit.gauss_newton.adaptive; }, "fit lobes that no LTC comes near with down to a quarter of the samples"),
       key("fit.gauss_newton.starts", [](Draft& d) { return &d.config.fit.gauss_newton.starts; }, {1, 16}, "starting points tried in the coarse phase"),
-      key("fit.gauss_newton.hopeless_start", [](Draft& d) { return &d.config.fit.gauss_newton.hopeless_start; }, {1, 1e9}, "descend from a start only if its loss is at most this many times the least of all starts"),
+      key("fit.gauss_newton.start_margin", [](Draft& d) { return &d.config.fit.gauss_newton.start_margin; }, {0, 1e9}, "descend from a start only if its loss exceeds the least by at most this share of it"),
       key("fit.gauss_newton.neighbour_sweeps", [](Draft& d) { return &d.config.fit.gauss_newton.neighbour_sweeps; }, {0, 16}, "how often an entry tries its neighbours' solutions"),
 
       key("fit.sgd.steps", [](Draft& d) { return &d.config.fit.sgd.steps; }, {1, 10'000'000}, "steps an entry"),

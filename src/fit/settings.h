@@ -29,9 +29,9 @@ struct GaussNewtonSettings {
   // their loss is not noise.
   bool adaptive = true;
   int starts = 2;  // starting points tried in the coarse phase, [1, 16]
-  // A start is descended from where its loss is at most this many times the least of them, [1,
-  // 1e9].
-  double hopeless_start = 1.5;
+  // A start is descended from where its loss exceeds the least of them by at most this share of it,
+  // [0, 1e9].
+  double start_margin = 0.5;
   int neighbour_sweeps = 0;  // how often an entry tries its neighbours' solutions, [0, 16]
 };
 

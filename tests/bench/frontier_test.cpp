@@ -53,7 +53,11 @@ TEST(Frontier, FitsWhatSymmetryLeaves) {
       grid,
       [] {
         FitSettings least;
-        least.gauss_newton = {64, 4, 0, 64, 4, 1, 64, 0, 0, 1, 0};
+        GaussNewtonSettings& few = least.gauss_newton;
+        few.coarse_samples = few.samples = few.target_samples = 64;
+        few.coarse_directions = few.directions = 4;
+        few.coarse_steps = few.neighbour_sweeps = 0;
+        few.steps = few.starts = 1;
         return least;
       }(),
       1, nullptr);
@@ -127,7 +131,7 @@ TEST(Frontier, TellsMirrorsFromTheRest) {
 // ---- Measurements ----
 
 TEST(Frontier, JudgesWhatTheTableWouldHold) {
-  const FrontierTask task = small_task("default,default-no-sweep", 5);
+  const FrontierTask task = small_task("default,default-sweep", 5);
   const FrontierRun run = measure_frontier(task, nullptr);
   HeldOutJudge judge(task.judge.samples, task.judge.directions, task.judge.seed);
   for (std::size_t i = 0; i < task.settings.size(); ++i) {
