@@ -63,7 +63,8 @@ void require_writable(const std::vector<std::string>& files) {
           fmt::format("cannot write {}: there is no folder {}", files[i], folder.string()));
     platform::require_writable_folder(folder);
     for (std::size_t j = 0; j < i; ++j)
-      if (fs::weakly_canonical(fs::absolute(file)) == fs::weakly_canonical(fs::absolute(files[j])))
+      if (!files[j].empty() &&
+          fs::weakly_canonical(fs::absolute(file)) == fs::weakly_canonical(fs::absolute(files[j])))
         throw InputError(
             fmt::format("{} is named for two outputs; expected different files", files[i]));
   }
