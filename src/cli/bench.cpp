@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -18,6 +17,7 @@
 #include "cli/progress.h"
 #include "core/error.h"
 #include "core/platform.h"
+#include "export/file.h"
 #include "export/reader.h"
 
 namespace ltc::cli {
@@ -68,16 +68,6 @@ void require_writable(const std::vector<std::string>& files) {
         throw InputError(
             fmt::format("{} is named for two outputs; expected different files", files[i]));
   }
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  platform::write_atomically(path, [&](const fs::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file)
-      throw IoError(fmt::format("cannot write {}", path));
-  });
 }
 
 // A ratio, or a dash where nothing was judged.
@@ -182,9 +172,9 @@ void bench(const Arguments& arguments) {
 
   progress.throw_if_stopped();
   if (!arguments.json.empty())
-    write_text(arguments.json, frontier_json(report));
+    write_file(arguments.json, frontier_json(report));
   if (!arguments.csv.empty())
-    write_text(arguments.csv, frontier_csv(report));
+    write_file(arguments.csv, frontier_csv(report));
   if (!arguments.picture.empty())
     picture::render(frontier_chart(report), 1600, 1100).write_png(arguments.picture);
   print(report_text(report));

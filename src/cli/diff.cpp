@@ -3,7 +3,6 @@
 // ltcfit diff: two tables judged by the same held-out samples.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -15,6 +14,7 @@
 #include "cli/progress.h"
 #include "core/error.h"
 #include "core/platform.h"
+#include "export/file.h"
 #include "export/reader.h"
 #include "validate/compare.h"
 
@@ -37,18 +37,12 @@ std::string row_text(const std::string& name, const RatioSummary& ratios) {
       ratios.p99, ratios.largest);
 }
 
-void write_csv(const std::string& path, const Grid& grid,
-               const std::vector<EntryComparison>& entries) {
-  platform::write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary);
-    file << "alpha,lambda,theta,phi,loss_a,loss_b,spread\n";
-    for (std::size_t flat = 0; flat < entries.size(); ++flat)
-      file << fmt::format("{},{},{},{}\n", entry_text(grid, flat), entries[flat].loss_a,
-                          entries[flat].loss_b, entries[flat].spread);
-    file.close();
-    if (!file)
-      throw IoError(fmt::format("cannot write {}", path));
-  });
+std::string csv_text(const Grid& grid, const std::vector<EntryComparison>& entries) {
+  std::string text = "alpha,lambda,theta,phi,loss_a,loss_b,spread\n";
+  for (std::size_t flat = 0; flat < entries.size(); ++flat)
+    text += fmt::format("{},{},{},{}\n", entry_text(grid, flat), entries[flat].loss_a,
+                        entries[flat].loss_b, entries[flat].spread);
+  return text;
 }
 
 // The folder of the CSV file, created if need be: better now than after the comparison.
@@ -88,7 +82,7 @@ void diff(const Arguments& arguments) {
     text += fmt::format("\nlargest ratio at entry {} ({})\n", entry_text(a.grid, all.largest_entry),
                         lobe_text(a.grid, all.largest_entry));
   if (!arguments.csv.empty())
-    write_csv(arguments.csv, a.grid, entries);
+    write_file(arguments.csv, csv_text(a.grid, entries));
   print(text);
 }
 

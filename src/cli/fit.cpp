@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <memory>
 
 #include "cli/command.h"
@@ -18,6 +17,7 @@
 #include "core/error.h"
 #include "core/platform.h"
 #include "core/progress.h"
+#include "export/file.h"
 #include "export/reader.h"
 #include "fit/symmetry_plan.h"
 #include "scene/coverage.h"
@@ -178,16 +178,6 @@ FitReport run_fit(const Arguments& arguments, const Config& config, Progress& pr
   return report;
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  platform::write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary);
-    file << text;
-    file.close();
-    if (!file)
-      throw IoError(fmt::format("cannot write {}", path));
-  });
-}
-
 void require_one_name(const Arguments& arguments) {
   const bool by_entry = !arguments.entry.empty(), by_parameters = names_parameters(arguments);
   if (by_entry && by_parameters)
@@ -208,7 +198,7 @@ void fit(const Arguments& arguments) {
   if (arguments.check_gradient)
     report.gradient = check_lobe_gradient(report.fit.lobe, report.fit.matrix);
   if (!arguments.trace.empty())
-    write_text(arguments.trace, trace_csv(report));
+    write_file(arguments.trace, trace_csv(report));
   if (!arguments.plot.empty())
     render_lobe(lobe_panels(report.fit.lobe, report.fit.matrix, picture_words(report)),
                 loss_chart(report))
