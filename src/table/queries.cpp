@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "table/queries.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+
+namespace ltc {
+namespace {
+
+double between(double first, double last, double uniform) {
+  return first + (last - first) * uniform;
+}
+
+}  // namespace
+
+GgxLobe query_lobe(const QueryRange& range, const std::array<double, 4>& uniforms,
+                   double alpha_min) {
+  const double roughness = between(range.roughness_first, range.roughness_last, uniforms[0]);
+  const double alpha = roughness * roughness;
+  const double lambda = between(range.lambda_first, range.lambda_last, uniforms[1]);
+  const double cos_theta = between(range.cos_theta_first, range.cos_theta_last, uniforms[2]);
+  return {std::max(alpha, alpha_min), std::max(lambda * alpha, alpha_min), std::acos(cos_theta),
+          between(range.phi_first, range.phi_last, uniforms[3])};
+}
+
+std::vector<GgxLobe> random_queries(const QueryRange& range, std::size_t count, std::uint64_t seed,
+                                    double alpha_min) {
+  Random random(seed);
+  std::vector<GgxLobe> queries;
+  queries.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<double, 4> uniforms;
+    for (double& uniform : uniforms)
+      uniform = random.uniform();
+    queries.push_back(query_lobe(range, uniforms, alpha_min));
+  }
+  return queries;
+}
+
+std::vector<GgxLobe> lattice_queries(const QueryRange& range, std::size_t first, std::size_t count,
+                                     double alpha_min) {
+  // The real root of x^5 = x + 1.
+  constexpr double ratio = 1.1673039782614187;
+  std::vector<GgxLobe> queries;
+  queries.reserve(count);
+  for (std::size_t i = first; i < first + count; ++i) {
+    std::array<double, 4> uniforms;
+    double step = 1;
+    for (double& uniform : uniforms) {
+      step /= ratio;
+      const double position = 0.5 + static_cast<double>(i + 1) * step;
+      uniform = position - std::floor(position);
+    }
+    queries.push_back(query_lobe(range, uniforms, alpha_min));
+  }
+  return queries;
+}
+
+}  // namespace ltc
