@@ -19,7 +19,7 @@ void evaluate_model(benchmark::State& state) {
             4096);
   ModelValue value;
   for (auto _ : state) {
-    ltc::evaluate_model(sets.frame, sets.start, sets.cosines, sets.quantiles,
+    ltc::evaluate_model(sets.frame, sets.start, sets.cosines, sets.quantiles, 1,
                         1e-2 * sets.quantiles.spread(), sets.model, value);
     benchmark::DoNotOptimize(value.loss);
   }

@@ -45,37 +45,43 @@ BENCHMARK(sort_values_alone)->Arg(1024)->Arg(2048)->Arg(4096);
 
 // Everything that a direction's loops read and write, filled by the loops before it.
 struct Buffers {
-  explicit Buffers(std::size_t samples) : sets(samples, 32, 4096), map(sets.quantiles.map(5)) {
-    for (AlignedFloats* array : {&gx, &gy, &gz, &xi})
+  explicit Buffers(std::size_t samples) : sets(samples, 32, 4096) {
+    for (AlignedFloats* array : {&gx, &gy, &gz})
       array->resize(samples);
     rows.resize(samples * kernels::row_width);
-    bins.resize(samples);
-    sums.resize(sets.bins * kernels::row_width);
-    populations.resize(sets.bins);
+    xi.resize(kernels::directions_at_once * samples);
+    bins.resize(kernels::directions_at_once * samples);
+    sums.resize(kernels::directions_at_once * sets.bins * kernels::row_width);
+    populations.resize(kernels::directions_at_once * sets.bins);
     for (int i = 0; i < 9; ++i)
       p[i] = static_cast<float>(sets.start(i / 3, i % 3));
     transform();
-    project();
+    for (std::size_t k = 0; k < kernels::directions_at_once; ++k) {
+      direction_z[k] = sets.quantiles.map(5 + k).direction_z;
+      project(k);
+    }
   }
   void transform() {
     kernels::transform_samples(p, static_cast<float>(lobe.alpha_x),
                                static_cast<float>(lobe.alpha_y), sets.cosines.x.data(),
-                               sets.cosines.y.data(), sets.cosines.z.data(), xi.size(), gx.data(),
+                               sets.cosines.y.data(), sets.cosines.z.data(), gx.size(), gx.data(),
                                gy.data(), gz.data(), rows.data());
   }
-  void project() {
-    kernels::project_and_bin(map, gx.data(), gy.data(), gz.data(), xi.size(), sets.bins, xi.data(),
-                             bins.data());
+  void project(std::size_t k) {
+    kernels::project_and_bin(sets.quantiles.map(5 + k), gx.data(), gy.data(), gz.data(), gx.size(),
+                             sets.bins, xi.data() + k * gx.size(), bins.data() + k * gx.size());
   }
+  void project_one() { project(0); }
   void accumulate() {
     std::fill(sums.begin(), sums.end(), 0.0f);
     std::fill(populations.begin(), populations.end(), 0);
-    kernels::accumulate_rows(xi.data(), bins.data(), rows.data(), xi.size(), map.direction_z,
-                             sums.data(), populations.data());
+    kernels::accumulate_rows(xi.data(), bins.data(), rows.data(), gx.size(), direction_z,
+                             kernels::directions_at_once, sets.bins, sums.data(),
+                             populations.data());
   }
 
   Sets sets;
-  kernels::ProjectionMap map;
+  float direction_z[kernels::directions_at_once];
   float p[9];
   AlignedFloats gx, gy, gz, xi, rows, sums;
   AlignedVector<std::int32_t> bins, populations;
@@ -97,12 +103,15 @@ void transform_samples(benchmark::State& state) {
 BENCHMARK(transform_samples)->Arg(256)->Arg(1024)->Arg(2048);
 
 void project_and_bin(benchmark::State& state) {
-  run(state, &Buffers::project);
+  run(state, &Buffers::project_one);
 }
 BENCHMARK(project_and_bin)->Arg(256)->Arg(1024)->Arg(2048);
 
+// Four directions at once: an item is a sample along one of them.
 void accumulate_rows(benchmark::State& state) {
   run(state, &Buffers::accumulate);
+  state.SetItemsProcessed(state.iterations() * state.range(0) *
+                          static_cast<std::int64_t>(kernels::directions_at_once));
 }
 BENCHMARK(accumulate_rows)->Arg(256)->Arg(1024)->Arg(2048);
 
@@ -110,14 +119,14 @@ BENCHMARK(accumulate_rows)->Arg(256)->Arg(1024)->Arg(2048);
 void accumulate_weights(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
   const Sets sets(2048, 32, count);
-  AlignedFloats xi(count), sums(2 * sets.bins);
+  AlignedFloats xi(count), pairs(2 * count), sums(2 * sets.bins);
   AlignedVector<std::int32_t> bins(count);
   kernels::project_and_bin(sets.quantiles.map(5), sets.target.gx.data(), sets.target.gy.data(),
                            sets.target.gz.data(), count, sets.bins, xi.data(), bins.data());
   for (auto _ : state) {
     std::fill(sums.begin(), sums.end(), 0.0f);
     kernels::accumulate_weights(xi.data(), bins.data(), sets.target.weight.data(), count,
-                                sums.data());
+                                pairs.data(), sums.data());
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));

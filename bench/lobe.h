@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct Sets {
   explicit Sets(std::size_t samples, std::size_t direction_count, std::size_t target_samples)
       : cosines(make_cosine_set(samples)),
         lattice(make_target_lattice(target_samples, 0.3)),
-        bins(samples / 16) {
+        bins(std::clamp<std::size_t>(samples / 64, 32, 256)) {
     for (const Eigen::Vector3d& direction : fibonacci_directions(direction_count))
       directions.push_back(direction.cast<float>());
     sample_weighted_target(frame, lattice, target);

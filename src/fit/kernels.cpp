@@ -92,28 +92,48 @@ void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy,
   }
 }
 
-void accumulate_rows(const float* xi, const std::int32_t* bins, const float* rows,
-                     std::size_t count, float direction_z, float* sums, std::int32_t* populations) {
+// accumulate_rows for a group of fixed size, so that its loops unroll.
+template <std::size_t group>
+void accumulate_group(const float* xi, const std::int32_t* bins, const float* rows,
+                      std::size_t count, const float* direction_z, std::size_t bin_count,
+                      float* sums, std::int32_t* populations) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
-  // Factor of lane l is constant[l] + xi slope[l].
-  HWY_ALIGN float constant[row_width], slope[row_width];
+  // Factor of lane l along direction g is constant[g][l] + xi slope[l].
+  HWY_ALIGN float constant[group][row_width], slope[row_width];
   for (std::size_t lane = 0; lane < row_width; ++lane) {
-    constant[lane] = lane < 9 ? direction_z : (lane >= 12 && lane < 15 ? 1.0f : 0.0f);
     slope[lane] = lane < 12 || lane == 15 ? 1.0f : 0.0f;
+    for (std::size_t g = 0; g < group; ++g)
+      constant[g][lane] = lane < 9 ? direction_z[g] : (lane >= 12 && lane < 15 ? 1.0f : 0.0f);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const V projection = hn::Set(d, xi[i]);
     const float* row = rows + i * row_width;
-    float* sum = sums + static_cast<std::size_t>(bins[i]) * row_width;
-    for (std::size_t part = 0; part < row_width; part += lanes) {
-      const V factor =
-          hn::MulAdd(projection, hn::Load(d, slope + part), hn::Load(d, constant + part));
-      hn::Store(hn::MulAdd(factor, hn::Load(d, row + part), hn::Load(d, sum + part)), d,
-                sum + part);
+    for (std::size_t g = 0; g < group; ++g) {
+      const V projection = hn::Set(d, xi[g * count + i]);
+      const std::size_t bin = g * bin_count + static_cast<std::size_t>(bins[g * count + i]);
+      float* sum = sums + bin * row_width;
+      for (std::size_t part = 0; part < row_width; part += lanes) {
+        const V factor =
+            hn::MulAdd(projection, hn::Load(d, slope + part), hn::Load(d, constant[g] + part));
+        hn::Store(hn::MulAdd(factor, hn::Load(d, row + part), hn::Load(d, sum + part)), d,
+                  sum + part);
+      }
+      ++populations[bin];
     }
-    ++populations[bins[i]];
   }
+}
+
+void accumulate_rows(const float* xi, const std::int32_t* bins, const float* rows,
+                     std::size_t count, const float* direction_z, std::size_t group,
+                     std::size_t bin_count, float* sums, std::int32_t* populations) {
+  if (group == directions_at_once) {
+    accumulate_group<directions_at_once>(xi, bins, rows, count, direction_z, bin_count, sums,
+                                         populations);
+    return;
+  }
+  for (std::size_t g = 0; g < group; ++g)
+    accumulate_group<1>(xi + g * count, bins + g * count, rows, count, direction_z + g, bin_count,
+                        sums + g * bin_count * row_width, populations + g * bin_count);
 }
 
 void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,
@@ -350,8 +370,10 @@ void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy,
 }
 
 void accumulate_rows(const float* xi, const std::int32_t* bins, const float* rows,
-                     std::size_t count, float direction_z, float* sums, std::int32_t* populations) {
-  HWY_DYNAMIC_DISPATCH(accumulate_rows)(xi, bins, rows, count, direction_z, sums, populations);
+                     std::size_t count, const float* direction_z, std::size_t group,
+                     std::size_t bin_count, float* sums, std::int32_t* populations) {
+  HWY_DYNAMIC_DISPATCH(accumulate_rows)
+  (xi, bins, rows, count, direction_z, group, bin_count, sums, populations);
 }
 
 void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,

@@ -51,10 +51,17 @@ void transform_samples(const float* frame_matrix, float alpha_x, float alpha_y,
 void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy, const float* gz,
                      std::size_t count, std::size_t bin_count, float* xi, std::int32_t* bins);
 
-// Adds each sample's row, times its factors, to the sums of its bin; `sums` is bin_count rows,
-// `populations` bin_count counters, both zeroed by the caller.
+// Along how many directions rows are summed at once: a row is read once for all of them, and the
+// sums of one direction do not wait for those of another.
+inline constexpr std::size_t directions_at_once = 4;
+
+// Adds each sample's row, times its factors, to the sums of its bin, along `group` <=
+// directions_at_once directions whose z are `direction_z`. Those of direction g begin at g count in
+// `xi` and `bins`; its sums are bin_count rows from g bin_count in `sums`, its bin_count counters
+// start at g bin_count in `populations`. Both are zeroed by the caller.
 void accumulate_rows(const float* xi, const std::int32_t* bins, const float* rows,
-                     std::size_t count, float direction_z, float* sums, std::int32_t* populations);
+                     std::size_t count, const float* direction_z, std::size_t group,
+                     std::size_t bin_count, float* sums, std::int32_t* populations);
 
 // Adds weight w and w xi of each sample to its bin; `sums` holds bin_count pairs (w, w xi).
 // `scratch` holds 2 count floats.

@@ -3,7 +3,9 @@
 #include "fit/quantile_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "brdf/ggx.h"
 #include "core/random.h"
@@ -173,6 +175,48 @@ kernels::TargetCells TargetQuantiles::cells(std::size_t direction) const {
           c3_.data() + first};
 }
 
+namespace {
+
+using kernels::directions_at_once;
+
+// The rows of all samples, summed into the bins of each of `maps`.
+void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, std::size_t count,
+                   std::size_t bins, ModelWorkspace& workspace) {
+  std::array<float, directions_at_once> direction_z;
+  for (std::size_t member = 0; member < maps.size(); ++member) {
+    direction_z[member] = maps[member]->direction_z;
+    kernels::project_and_bin(*maps[member], workspace.gx.data(), workspace.gy.data(),
+                             workspace.gz.data(), count, bins, workspace.xi.data() + member * count,
+                             workspace.bins.data() + member * count);
+  }
+  std::fill_n(workspace.sums.data(), maps.size() * bins * row_width, 0.0f);
+  std::fill_n(workspace.populations.data(), maps.size() * bins, 0);
+  kernels::accumulate_rows(workspace.xi.data(), workspace.bins.data(), workspace.rows.data(), count,
+                           direction_z.data(), maps.size(), bins, workspace.sums.data(),
+                           workspace.populations.data());
+}
+
+// Adds what one direction's bins say.
+void add_direction(const kernels::ProjectionMap& map, const kernels::TargetCells& cells,
+                   const float* sums, const std::int32_t* populations, std::size_t bins,
+                   std::size_t count, double smoothing, AlignedFloats& scratch, ModelValue& value) {
+  alignas(vector_alignment) float gradient[row_width] = {};
+  alignas(vector_alignment) float hessian[9 * row_width] = {};
+  kernels::DirectionSums result{gradient, hessian, 0};
+  kernels::reduce_direction(map, sums, populations, bins, count, cells,
+                            static_cast<float>(smoothing), scratch.data(), result);
+  // In double from direction to direction: the scale of P is a direction of zero curvature, and
+  // only rounding may say otherwise.
+  value.loss += result.loss;
+  for (int row = 0; row < 9; ++row) {
+    value.gradient[row] += gradient[row];
+    for (int column = 0; column < 9; ++column)
+      value.curvature(row, column) += hessian[row * row_width + column];
+  }
+}
+
+}  // namespace
+
 void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
                     const CosineSet& cosines, const TargetQuantiles& target,
                     std::size_t direction_stride, double smoothing, ModelWorkspace& workspace,
@@ -186,51 +230,44 @@ void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
                              static_cast<float>(frame.lobe.alpha_y), cosines.x.data(),
                              cosines.y.data(), cosines.z.data(), count, workspace.gx.data(),
                              workspace.gy.data(), workspace.gz.data(), workspace.rows.data());
-  alignas(vector_alignment) float gradient[row_width];
-  alignas(vector_alignment) float hessian[9 * row_width];
   value.gradient.setZero();
   value.curvature.setZero();
-  kernels::DirectionSums sums{gradient, hessian, 0};
+  value.loss = 0;
+  std::array<const kernels::ProjectionMap*, directions_at_once> maps;
   std::size_t directions = 0;
-  for (std::size_t k = 0; k < target.direction_count(); k += direction_stride, ++directions) {
-    const kernels::ProjectionMap& map = target.map(k);
-    kernels::project_and_bin(map, workspace.gx.data(), workspace.gy.data(), workspace.gz.data(),
-                             count, bins, workspace.xi.data(), workspace.bins.data());
-    std::fill_n(workspace.sums.data(), bins * row_width, 0.0f);
-    std::fill_n(workspace.populations.data(), bins, 0);
-    kernels::accumulate_rows(workspace.xi.data(), workspace.bins.data(), workspace.rows.data(),
-                             count, map.direction_z, workspace.sums.data(),
-                             workspace.populations.data());
-    std::fill_n(gradient, row_width, 0.0f);
-    std::fill_n(hessian, 9 * row_width, 0.0f);
-    kernels::reduce_direction(map, workspace.sums.data(), workspace.populations.data(), bins, count,
-                              target.cells(k), static_cast<float>(smoothing),
-                              workspace.scratch.data(), sums);
-    // In double from direction to direction: the scale of P is a direction of zero curvature, and
-    // only rounding may say otherwise.
-    for (int row = 0; row < 9; ++row) {
-      value.gradient[row] += gradient[row];
-      for (int column = 0; column < 9; ++column)
-        value.curvature(row, column) += hessian[row * row_width + column];
-    }
+  for (std::size_t k = 0; k < target.direction_count();) {
+    const std::size_t first = k;
+    std::size_t group = 0;
+    for (; group < directions_at_once && k < target.direction_count(); k += direction_stride)
+      maps[group++] = &target.map(k);
+    sum_into_bins({maps.data(), group}, count, bins, workspace);
+    for (std::size_t member = 0; member < group; ++member)
+      add_direction(*maps[member], target.cells(first + member * direction_stride),
+                    workspace.sums.data() + member * bins * row_width,
+                    workspace.populations.data() + member * bins, bins, count, smoothing,
+                    workspace.scratch, value);
+    directions += group;
   }
   const double share = 1 / (static_cast<double>(count) * static_cast<double>(directions));
-  value.loss = sums.loss * share;
+  value.loss *= share;
   value.gradient *= share;
   value.curvature *= share;
 }
 
 void ModelWorkspace::reserve(std::size_t samples, std::size_t bin_count) {
   if (gx.size() < samples) {
-    for (AlignedFloats* array : {&gx, &gy, &gz, &xi})
+    for (AlignedFloats* array : {&gx, &gy, &gz})
       array->resize(samples);
     rows.resize(samples * row_width);
-    bins.resize(samples);
   }
-  if (populations.size() < bin_count) {
-    sums.resize(bin_count * row_width);
+  if (xi.size() < directions_at_once * samples) {
+    xi.resize(directions_at_once * samples);
+    bins.resize(directions_at_once * samples);
+  }
+  if (populations.size() < directions_at_once * bin_count) {
+    sums.resize(directions_at_once * bin_count * row_width);
     scratch.resize(bin_count * (4 + row_width));
-    populations.resize(bin_count);
+    populations.resize(directions_at_once * bin_count);
   }
 }
 

@@ -28,7 +28,7 @@ struct GaussNewtonSettings {
   // Lobes that no LTC comes near are fitted with down to a quarter of the samples: what is left of
   // their loss is not noise.
   bool adaptive = true;
-  int starts = 2;  // starting points tried in the coarse phase, [1, 16]
+  int starts = 1;  // starting points tried in the coarse phase, [1, 16]
   // A start is descended from where its loss exceeds the least of them by at most this share of it,
   // [0, 1e9].
   double start_margin = 0.5;

@@ -270,8 +270,8 @@ Descender::LossGradient Descender::loss_and_gradient(const Eigen::Matrix3d& fram
     // The sums of dx/dM over the samples that lie too low (0) and too high (1).
     alignas(vector_alignment) float sums[2 * kernels::row_width] = {};
     std::int32_t populations[2] = {};
-    kernels::accumulate_rows(model.xi.data(), model.bins.data(), model.rows.data(), count_, d.z(),
-                             sums, populations);
+    kernels::accumulate_rows(model.xi.data(), model.bins.data(), model.rows.data(), count_, &d.z(),
+                             1, 2, sums, populations);
     float low[9], high[9];
     kernels::jacobian_of_sums({d.x(), d.y(), d.z(), 0, 1}, sums, low);
     kernels::jacobian_of_sums({d.x(), d.y(), d.z(), 0, 1}, sums + kernels::row_width, high);
