@@ -337,7 +337,8 @@ std::string report_json(const DiffReport& report) {
   json["entries"] = Json::array();
   for (std::size_t flat = 0; flat < report.entries.size(); ++flat)
     json["entries"].push_back(json_of_entry(report, flat));
-  return json.dump(1) + "\n";
+  // File names are bytes of any kind; JSON is UTF-8.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string report_csv(const DiffReport& report) {

@@ -164,6 +164,16 @@ TEST(Diff, TheJsonHasTheReport) {
   }
 }
 
+TEST(Diff, NamesThatAreNoUtf8HaveAReportToo) {
+  const TemporaryDirectory folder;
+  write_hdf5(example(), folder / "a\xff.h5");
+  const ProgramResult result = run_ltcfit(
+      diff("a\xff.h5", "a\xff.h5", {"--json", "all.json", "--map", "map.png"}), folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Json::parse(read_file(folder / "all.json"))["a"], "a\xef\xbf\xbd.h5");
+  EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"all.json", "a\xff.h5", "map.png"}));
+}
+
 TEST(Diff, ArraysOfMatricesHaveNoTermsToCompare) {
   const TemporaryDirectory folder;
   const Table table = testing::synthetic_table(Grid::paper(2), Storage::mirror_frame);
