@@ -71,27 +71,49 @@ struct Turn {
   }
 };
 
-// The cosine distribution does not change under R, so equation (12) is 2 - 2 E[f . R^T w] =
-// const - 2 tr(R2 C), with f = M w/|M w|, C the upper left block of E[f w^T] and R2 that of R.
-//   Rotation R2 = [c -s; s c]:   tr = c (C00 + C11) + s (C01 - C10),
-//   reflection R2 = [c s; s -c]: tr = c (C00 - C11) + s (C01 + C10);
+// An R of O(2) about z: a rotation [c -s; s c], or a reflection [c s; s -c].
+struct Orthogonal {
+  Turn turn;
+  bool reflects = false;
+};
+
+Orthogonal rotation_for(const Eigen::Matrix2d& c) {
+  return {Turn(c(0, 0) + c(1, 1), c(0, 1) - c(1, 0)), false};
+}
+Orthogonal reflection_for(const Eigen::Matrix2d& c) {
+  return {Turn(c(0, 0) - c(1, 1), c(0, 1) + c(1, 0)), true};
+}
+
+// The R that makes tr(R2 C) largest, R2 being its upper left block:
+//   rotation:   tr = c (C00 + C11) + s (C01 - C10),
+//   reflection: tr = c (C00 - C11) + s (C01 + C10);
 // each is largest where (c, s) points along its two coefficients, and worth their length. (This is
-// V U^T of C's singular value decomposition, without the decomposition.) Multiplies the matrix by R
-// and returns the sine of the angle that it turned by, 1 where it reflected.
+// V U^T of C's singular value decomposition, without the decomposition.)
+Orthogonal best_for(const Eigen::Matrix2d& c) {
+  const Orthogonal rotation = rotation_for(c), reflection = reflection_for(c);
+  return reflection.turn.length > rotation.turn.length ? reflection : rotation;
+}
+
+// M R.
+void apply(const Orthogonal& r, Eigen::Matrix3d& matrix) {
+  const Eigen::Vector3d x = matrix.col(0), y = matrix.col(1);
+  matrix.col(0) = x * r.turn.cosine + y * r.turn.sine;
+  if (r.reflects)
+    matrix.col(1) = x * r.turn.sine - y * r.turn.cosine;
+  else
+    matrix.col(1) = y * r.turn.cosine - x * r.turn.sine;
+}
+
+// The cosine distribution does not change under R, so equation (12) is 2 - 2 E[f . R^T w] =
+// const - 2 tr(R2 C), with f = M w/|M w| and C the upper left block of E[f w^T]. Multiplies the
+// matrix by the best R and returns the sine of the angle that it turned by, 1 where it reflected.
 double align_once(Handedness handedness, Eigen::Matrix3d& matrix) {
   const Eigen::Matrix2d c = correlation(matrix);
-  const Turn rotation(c(0, 0) + c(1, 1), c(0, 1) - c(1, 0));
-  const Turn reflection(c(0, 0) - c(1, 1), c(0, 1) + c(1, 0));
-  const bool reflect = handedness == Handedness::positive ? matrix.determinant() < 0
-                                                          : reflection.length > rotation.length;
-  const Turn& turn = reflect ? reflection : rotation;
-  const Eigen::Vector3d x = matrix.col(0), y = matrix.col(1);
-  matrix.col(0) = x * turn.cosine + y * turn.sine;
-  if (reflect)
-    matrix.col(1) = x * turn.sine - y * turn.cosine;
-  else
-    matrix.col(1) = y * turn.cosine - x * turn.sine;
-  return reflect ? 1 : std::abs(turn.sine);
+  const Orthogonal best = handedness == Handedness::any ? best_for(c)
+                          : matrix.determinant() < 0    ? reflection_for(c)
+                                                        : rotation_for(c);
+  apply(best, matrix);
+  return best.reflects ? 1 : std::abs(best.turn.sine);
 }
 
 }  // namespace
@@ -107,6 +129,17 @@ Eigen::Matrix3d align(const Eigen::Matrix3d& matrix, Handedness handedness) {
   for (int pass = 0; pass < kMostPasses; ++pass)
     if (align_once(handedness, aligned) < kSmallTurn)
       break;
+  return aligned;
+}
+
+// |A - M R|^2 = const - 2 tr(A^T M R), of which R moves only what the first two columns say.
+Eigen::Matrix3d align_to(const Eigen::Matrix3d& reference, const Eigen::Matrix3d& matrix) {
+  // As single products of columns, so that C is symmetric to the last bit where A = M.
+  Eigen::Matrix2d c;
+  c << reference.col(0).dot(matrix.col(0)), reference.col(0).dot(matrix.col(1)),
+      reference.col(1).dot(matrix.col(0)), reference.col(1).dot(matrix.col(1));
+  Eigen::Matrix3d aligned = matrix;
+  apply(best_for(c), aligned);
   return aligned;
 }
 

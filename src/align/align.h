@@ -26,4 +26,9 @@ enum class Handedness {
 // matrices count as positive. NaN in, NaN out.
 Eigen::Matrix3d align(const Eigen::Matrix3d& matrix, Handedness handedness = Handedness::positive);
 
+// M R with the R that brings M nearest to another matrix A: the least |A - M R| (Frobenius) of all
+// rotations and reflections about z, whatever the lengths of both; closed form. Two matrices of one
+// lobe, A = s M R, become equal up to their scale s and rounding. A itself comes back unchanged.
+Eigen::Matrix3d align_to(const Eigen::Matrix3d& reference, const Eigen::Matrix3d& matrix);
+
 }  // namespace ltc

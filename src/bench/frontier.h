@@ -14,7 +14,7 @@
 #include "bench/setting.h"
 #include "core/progress.h"
 #include "table/table.h"
-#include "validate/compare.h"
+#include "validate/comparison_summary.h"
 
 namespace ltc {
 

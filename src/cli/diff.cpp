@@ -3,105 +3,142 @@
 // ltcfit diff: two tables judged by the same held-out samples.
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
+#include <deque>
 #include <memory>
 #include <optional>
 
 #include "cli/command.h"
-#include "cli/entry_text.h"
+#include "cli/diff_report.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "core/error.h"
-#include "core/platform.h"
 #include "export/file.h"
 #include "export/reader.h"
-#include "validate/compare.h"
+#include "validate/ratio_map.h"
 
 namespace ltc::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Arguments {
   std::string a, b;
-  std::string csv;  // empty: none
+  std::string csv, json, map;  // empty: none
+  std::optional<double> tolerance;
   CompareSettings settings;
   int threads = default_threads();
 };
 
-std::string row_text(const std::string& name, const RatioSummary& ratios) {
-  if (ratios.entries == 0)
-    return fmt::format("{:<12} no entry that both tables have\n", name);
-  return fmt::format(
-      "{:<12} {:>7} {:>11.4e} {:>11.4e} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f}\n", name,
-      ratios.entries, ratios.mean_loss_a, ratios.mean_loss_b, ratios.mean, ratios.p50, ratios.p95,
-      ratios.p99, ratios.largest);
-}
-
-std::string csv_text(const Grid& grid, const std::vector<EntryComparison>& entries) {
-  std::string text = "alpha,lambda,theta,phi,loss_a,loss_b,spread\n";
-  for (std::size_t flat = 0; flat < entries.size(); ++flat)
-    text += fmt::format("{},{},{},{}\n", entry_text(grid, flat), entries[flat].loss_a,
-                        entries[flat].loss_b, entries[flat].spread);
-  return text;
-}
-
-// The folder of the CSV file, created if need be: better now than after the comparison.
-std::optional<OutputFolder> csv_folder(const std::filesystem::path& csv) {
-  if (csv.empty())
-    return std::nullopt;
+// The files to write can be written: better known now than after the comparison. Their folders are
+// created if need be, and removed again if nothing comes to lie in them.
+std::deque<OutputFolder> prepare_outputs(const Arguments& arguments) {
+  std::deque<OutputFolder> folders;  // which cannot move
   std::error_code ignored;
-  if (std::filesystem::is_directory(csv, ignored))
-    throw IoError(fmt::format("cannot write {}: it is a folder", csv.string()));
-  return std::optional<OutputFolder>(std::in_place,
-                                     csv.has_parent_path() ? csv.parent_path() : ".");
+  for (const fs::path file : {arguments.csv, arguments.json, arguments.map}) {
+    if (file.empty())
+      continue;
+    if (fs::is_directory(file, ignored))
+      throw IoError(fmt::format("cannot write {}: it is a folder", file.string()));
+    folders.emplace_back(file.has_parent_path() ? file.parent_path() : ".");
+  }
+  return folders;
+}
+
+void require_comparable(const NamedTable& a, const NamedTable& b) {
+  try {
+    require_same_grid(a.table.grid, b.table.grid);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} and {}: {}", a.file, b.file, error.what()));
+  }
 }
 
 void diff(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
-  const Table a = read_table(arguments.a), b = read_table(arguments.b);
-  const std::optional<OutputFolder> folder = csv_folder(arguments.csv);
-  const std::vector<EntryComparison> entries =
-      compare_tables(a, b, arguments.settings, arguments.threads, &progress);
-  std::string text = fmt::format(
-      "held-out sliced-Wasserstein loss of A = {} and B = {},\n{} samples, {} directions; ratio "
-      "A/B\n\n",
-      arguments.a, arguments.b, arguments.settings.samples, arguments.settings.directions);
-  text += fmt::format("{:<12} {:>7} {:>11} {:>11} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "", "entries",
-                      "mean A", "mean B", "mean", "p50", "p95", "p99", "largest");
-  const RatioSummary all = summarize_ratios(entries);
-  text += row_text("all", all);
-  for (std::size_t alpha = 0; alpha < a.grid.alpha.size(); ++alpha) {
-    std::vector<bool> in_row(entries.size());
-    for (std::size_t flat = 0; flat < entries.size(); ++flat)
-      in_row[flat] = a.grid.node(flat).alpha == alpha;
-    text += row_text(fmt::format("alpha {:.3f}", a.grid.alpha.nodes[alpha]),
-                     summarize_ratios(entries, in_row));
-  }
-  if (all.entries > 0)
-    text += fmt::format("\nlargest ratio at entry {} ({})\n", entry_text(a.grid, all.largest_entry),
-                        lobe_text(a.grid, all.largest_entry));
+  NamedTable a{arguments.a, read_table(arguments.a)}, b{arguments.b, read_table(arguments.b)};
+  require_comparable(a, b);
+  const std::deque<OutputFolder> folders = prepare_outputs(arguments);
+  std::vector<EntryComparison> entries =
+      compare_tables(a.table, b.table, arguments.settings, arguments.threads, &progress);
+  const DiffReport report(std::move(a), std::move(b), arguments.settings, std::move(entries),
+                          arguments.tolerance);
   if (!arguments.csv.empty())
-    write_file(arguments.csv, csv_text(a.grid, entries));
-  print(text);
+    write_file(arguments.csv, report_csv(report));
+  if (!arguments.json.empty())
+    write_file(arguments.json, report_json(report));
+  if (!arguments.map.empty())
+    picture::render(ratio_map(report.a.table.grid, report.entries, report.a.file, report.b.file))
+        .write_png(arguments.map);
+  print(report_text(report));
+  if (const std::string failure = failure_text(report); !failure.empty())
+    throw CheckFailure(failure);
+}
+
+// A message if the text is no tolerance; NaN would be one that nothing exceeds.
+std::string check_tolerance(const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc() && stop == end && std::isfinite(value) && value >= 0)
+    return "";
+  return shell_quoted(text) + " is not allowed; expected a number, 0 or more";
+}
+
+void add_judge_options(CLI::App& app, CompareSettings& settings) {
+  constexpr const char* group = "How to judge";
+  app.add_option("--samples", settings.samples,
+                 fmt::format("held-out samples an entry [{}]", settings.samples))
+      ->check(CLI::Range(64, 1 << 20))
+      ->option_text("N")
+      ->group(group);
+  app.add_option("--directions", settings.directions,
+                 fmt::format("held-out directions an entry [{}]", settings.directions))
+      ->check(CLI::Range(1, 4096))
+      ->option_text("N")
+      ->group(group);
+  app.add_option("--seed", settings.seed,
+                 fmt::format("seed of the held-out sets [{}]", settings.seed))
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N")
+      ->group(group);
+}
+
+void add_output_options(CLI::App& app, Arguments& arguments) {
+  constexpr const char* group = "What to write";
+  app.add_option("--map", arguments.map,
+                 "draw the ratio of the losses over the whole table into this file, as PNG [none]")
+      ->option_text("FILE")
+      ->group(group);
+  app.add_option("--csv", arguments.csv, "write every entry's figures to this file [none]")
+      ->option_text("FILE")
+      ->group(group);
+  app.add_option("--json", arguments.json, "write the whole report to this file [none]")
+      ->option_text("FILE")
+      ->group(group);
 }
 
 }  // namespace
 
 Action declare_diff(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
-  app.add_option("A", arguments->a, "table to judge, .h5 or .npy")->required();
-  app.add_option("B", arguments->b, "table to judge it against, .h5 or .npy")->required();
-  app.add_option("--samples", arguments->settings.samples, "held-out samples an entry")
-      ->check(CLI::Range(64, 1 << 20))
-      ->capture_default_str();
-  app.add_option("--directions", arguments->settings.directions, "held-out directions an entry")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
-  app.add_option("--seed", arguments->settings.seed, "seed of the held-out sets")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_option("--csv", arguments->csv, "write every entry's losses to this file");
+  app.add_option("A", arguments->a, "table to judge, .h5, .npy or .0.exr")
+      ->required()
+      ->option_text(" ");
+  app.add_option("B", arguments->b, "table to judge it against, .h5, .npy or .0.exr")
+      ->required()
+      ->option_text(" ");
+  app.add_option("--tolerance", arguments->tolerance,
+                 "exit with 1 where the lobes are farther apart than this share of the lobe's "
+                 "spread, or amplitude or Fresnel term differ by more [none]")
+      ->check(check_tolerance)
+      ->option_text("X")
+      ->group("What to check");
+  add_judge_options(app, arguments->settings);
+  add_output_options(app, *arguments);
   add_threads_option(app, arguments->threads);
   return [arguments] { diff(*arguments); };
 }

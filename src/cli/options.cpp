@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "cli/output.h"
+#include "export/hdf5.h"
 
 namespace ltc::cli {
 namespace {
@@ -27,6 +28,9 @@ std::string check_threads(const std::string& text) {
 }  // namespace
 
 Config ConfigArguments::load() const {
+  const std::filesystem::path path(file);
+  if (path.extension() == ".h5")
+    return parse_config(read_hdf5(path).config, path, overrides);
   return load_config(file.empty() ? std::nullopt : std::optional<std::filesystem::path>(file),
                      overrides);
 }
@@ -42,10 +46,10 @@ std::string ConfigArguments::as_text() const {
 
 void add_config_options(CLI::App& app, ConfigArguments& arguments) {
   const auto not_empty = [](const std::string& text) {
-    return std::string(text.empty() ? "is empty; expected a TOML file" : "");
+    return std::string(text.empty() ? "is empty; expected a TOML file or a table's .h5" : "");
   };
   app.add_option("-c,--config", arguments.file,
-                 "TOML file that says what differs from the defaults [none]")
+                 "TOML file that says what differs from the defaults, or a table's .h5 [none]")
       ->check(not_empty)
       ->option_text("FILE")
       ->group("What to fit");

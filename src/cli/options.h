@@ -13,7 +13,7 @@ namespace ltc::cli {
 
 // --config and --set.
 struct ConfigArguments {
-  std::string file;  // empty: defaults
+  std::string file;  // TOML, or a table's .h5, whose config it is; empty: defaults
   std::vector<std::string> overrides;
 
   Config load() const;

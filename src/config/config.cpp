@@ -44,18 +44,37 @@ void check_together(const Draft& draft, const config::Sources& sources) {
                     config::latest_source(sources, {"fit.sgd.lattice_samples", "fit.target"})));
 }
 
-}  // namespace
-
-Config load_config(const std::optional<std::filesystem::path>& file,
-                   std::span<const std::string> overrides) {
+// The defaults, what `read` says, then the overrides.
+template <class Read>
+Config config_from(Read&& read, std::span<const std::string> overrides) {
   Draft draft = config::draft_of(Config{});
   config::Sources sources;
-  if (file)
-    config::read_file(*file, draft, sources);
+  read(draft, sources);
   for (const std::string& override : overrides)
     config::read_override(override, draft, sources);
   check_together(draft, sources);
   return config::config_of(draft);
+}
+
+}  // namespace
+
+Config load_config(const std::optional<std::filesystem::path>& file,
+                   std::span<const std::string> overrides) {
+  return config_from(
+      [&](Draft& draft, config::Sources& sources) {
+        if (file)
+          config::read_file(*file, draft, sources);
+      },
+      overrides);
+}
+
+Config parse_config(std::string_view text, const std::filesystem::path& source,
+                    std::span<const std::string> overrides) {
+  return config_from(
+      [&](Draft& draft, config::Sources& sources) {
+        config::read_text(text, source, draft, sources);
+      },
+      overrides);
 }
 
 std::string to_toml(const Config& config) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fit/settings.h"
@@ -38,6 +39,11 @@ struct Config {
 // said, the key, the value, what is allowed), IoError for a file that cannot be read.
 Config load_config(const std::optional<std::filesystem::path>& file,
                    std::span<const std::string> overrides);
+
+// The same with the text of a config that is at hand, such as the one in a table's file; `source`
+// stands in messages for the file.
+Config parse_config(std::string_view text, const std::filesystem::path& source,
+                    std::span<const std::string> overrides);
 
 // Every key with its value, as TOML that load_config reads back to the same Config, bit for bit.
 // (To the last bit only if the angles are those of some number of degrees, as those of every config

@@ -66,12 +66,22 @@ void set_keys(const std::string& prefix, const toml::table& table, const SourceO
   }
 }
 
+void set_keys_of(const toml::table& root, const std::filesystem::path& file, Draft& draft,
+                 Sources& sources) {
+  set_keys(
+      "", root, [&](const toml::node& node) { return place_of(file, node.source()); }, draft,
+      sources);
+}
+
 }  // namespace
 
 void read_file(const std::filesystem::path& file, Draft& draft, Sources& sources) {
-  set_keys(
-      "", read_toml(file, "config"),
-      [&](const toml::node& node) { return place_of(file, node.source()); }, draft, sources);
+  set_keys_of(read_toml(file, "config"), file, draft, sources);
+}
+
+void read_text(std::string_view text, const std::filesystem::path& source, Draft& draft,
+               Sources& sources) {
+  set_keys_of(parse_toml(text, source), source, draft, sources);
 }
 
 void read_override(std::string_view override, Draft& draft, Sources& sources) {

@@ -22,6 +22,10 @@ using Sources = std::vector<KeySource>;
 // Sets what the file says. Throws IoError if it cannot be read, InputError for what it says.
 void read_file(const std::filesystem::path& file, Draft& draft, Sources& sources);
 
+// Sets what a config at hand says; `source` stands in messages for the file. Throws InputError.
+void read_text(std::string_view text, const std::filesystem::path& source, Draft& draft,
+               Sources& sources);
+
 // Sets what one "key=value" says. Throws InputError.
 void read_override(std::string_view override, Draft& draft, Sources& sources);
 

@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <numeric>
+#include <map>
 
+#include "align/align.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "validate/held_out.h"
@@ -15,10 +17,53 @@
 namespace ltc {
 namespace {
 
-// The least value that at least `share` of the sorted values do not exceed.
-double quantile(const std::vector<double>& sorted, double share) {
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::min(rank == 0 ? 0 : rank - 1, sorted.size() - 1)];
+// All that an entry's figures depend on, bit by bit: alpha_x, alpha_y, the view direction and both
+// matrices.
+using LobeBits = std::array<std::uint64_t, 23>;
+
+LobeBits bits_of(const GgxLobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  LobeBits bits;
+  auto next = bits.begin();
+  const auto add = [&](double value) { *next++ = std::bit_cast<std::uint64_t>(value); };
+  add(lobe.alpha_x);
+  add(lobe.alpha_y);
+  for (const double value : lobe.omega_v())
+    add(value);
+  for (int i = 0; i < 9; ++i) {
+    add(a(i));
+    add(b(i));
+  }
+  return bits;
+}
+
+// The first entry of those that are the same, for every entry.
+std::vector<std::size_t> first_of_same(const Table& a, const Table& b) {
+  std::map<LobeBits, std::size_t> first;
+  std::vector<std::size_t> result(a.grid.size());
+  for (std::size_t flat = 0; flat < result.size(); ++flat)
+    result[flat] =
+        first
+            .try_emplace(
+                bits_of(a.grid.lobe(a.grid.node(flat)), a.matrix_at(flat), b.matrix_at(flat)), flat)
+            .first->second;
+  return result;
+}
+
+EntryComparison compare_lobes(const GgxLobe& lobe, const Eigen::Matrix3d& a,
+                              const Eigen::Matrix3d& b, HeldOutJudge& judge) {
+  const bool both = a.allFinite() && b.allFinite();
+  const Eigen::Matrix3d nearest_b = both ? align_to(a, b) : b;
+  const PairJudgement judgement = judge.judge_pair(lobe, a, nearest_b);
+  EntryComparison entry{judgement.loss_a, judgement.loss_b, judgement.spread, judgement.distance};
+  if (both)
+    entry.matrix_difference = (a / a.col(2).norm() - nearest_b / nearest_b.col(2).norm())
+                                  .cwiseAbs()
+                                  .maxCoeff<Eigen::PropagateNaN>();
+  return entry;
+}
+
+double difference(float a, float b) {
+  return std::abs(static_cast<double>(a) - static_cast<double>(b));
 }
 
 }  // namespace
@@ -44,46 +89,27 @@ std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
                                             const CompareSettings& settings, int threads,
                                             Progress* progress) {
   require_same_grid(a.grid, b.grid);
-  std::vector<EntryComparison> entries(a.grid.size());
+  const std::vector<std::size_t> first = first_of_same(a, b);
+  std::vector<std::size_t> to_judge;
+  for (std::size_t flat = 0; flat < first.size(); ++flat)
+    if (first[flat] == flat)
+      to_judge.push_back(flat);
+
+  std::vector<EntryComparison> entries(first.size());
   const HeldOutJudge prototype(settings.samples, settings.directions, settings.seed);
   parallel_for_each<HeldOutJudge>(
-      "compare", entries.size(), threads, progress, [&] { return prototype; },
-      [&](std::size_t flat, HeldOutJudge& judge) {
-        judge.set_lobe(a.grid.lobe(a.grid.node(flat)));
-        entries[flat] = {judge.loss(a.matrix_at(flat)), judge.loss(b.matrix_at(flat)),
-                         judge.spread()};
+      "compare", to_judge.size(), threads, progress, [&] { return prototype; },
+      [&](std::size_t i, HeldOutJudge& judge) {
+        const std::size_t flat = to_judge[i];
+        entries[flat] = compare_lobes(a.grid.lobe(a.grid.node(flat)), a.matrix_at(flat),
+                                      b.matrix_at(flat), judge);
       });
-  return entries;
-}
-
-RatioSummary summarize_ratios(const std::vector<EntryComparison>& entries,
-                              const std::vector<bool>& include) {
-  RatioSummary summary;
-  std::vector<double> ratios;
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
-    const double ratio = entries[flat].loss_a / entries[flat].loss_b;
-    if (!std::isfinite(ratio) || !(include.empty() || include[flat]))
-      continue;
-    if (ratios.empty() || ratio > summary.largest) {
-      summary.largest = ratio;
-      summary.largest_entry = flat;
-    }
-    ratios.push_back(ratio);
-    summary.mean_loss_a += entries[flat].loss_a;
-    summary.mean_loss_b += entries[flat].loss_b;
+    entries[flat] = entries[first[flat]];
+    entries[flat].amplitude_difference = difference(a.amplitude[flat], b.amplitude[flat]);
+    entries[flat].fresnel_difference = difference(a.fresnel[flat], b.fresnel[flat]);
   }
-  summary.entries = ratios.size();
-  if (ratios.empty())
-    return summary;
-  const auto count = static_cast<double>(ratios.size());
-  summary.mean = std::accumulate(ratios.begin(), ratios.end(), 0.0) / count;
-  summary.mean_loss_a /= count;
-  summary.mean_loss_b /= count;
-  std::sort(ratios.begin(), ratios.end());
-  summary.p50 = quantile(ratios, 0.5);
-  summary.p95 = quantile(ratios, 0.95);
-  summary.p99 = quantile(ratios, 0.99);
-  return summary;
+  return entries;
 }
 
 }  // namespace ltc

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Two tables, lobe against lobe: which is nearer to GGX, and by how much.
+// Two tables, lobe against lobe: which is nearer to GGX, and how far they are from each other.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/progress.h"
@@ -18,30 +19,32 @@ struct CompareSettings {
   std::uint64_t seed = 20220712;
 };
 
-// One entry of both tables. Losses are held out: sliced-Wasserstein distances to the GGX lobe on
-// samples and directions that no fit has seen. NaN where a table has no matrix.
+inline constexpr double not_compared = std::numeric_limits<double>::quiet_NaN();
+
+// One entry of both tables. A figure is NaN where a table lacks what it needs: the entry, or the
+// amplitude and Fresnel terms. M and s M R, with s > 0 and R a rotation or reflection about z, are
+// one lobe; so the matrix of B is first brought as near as it gets to that of A (align_to).
 struct EntryComparison {
+  // Sliced-Wasserstein distances to the GGX lobe, held out: on samples and directions that no fit
+  // has seen, the same for both lobes.
   double loss_a = 0, loss_b = 0;
   double spread = 0;  // of the GGX lobe, the scale that losses are judged by
+  // Between the two LTC, by the same samples, paired: 0 for two matrices of one lobe.
+  double distance = not_compared;
+  double matrix_difference = not_compared;  // largest of an entry, third columns of unit length
+  double amplitude_difference = not_compared, fresnel_difference = not_compared;  // absolute
+
+  double ratio() const { return loss_a / loss_b; }
+  double relative_distance() const { return distance / spread; }
 };
 
 // Throws InputError, naming the difference, unless the two grids are the same.
 void require_same_grid(const Grid& a, const Grid& b);
 
-// One comparison a node. Throws InputError when the grids differ.
+// One comparison a node. Lobes that are the same in both tables to the last bit, as symmetry makes
+// them (theta = 0, alpha = 0), are judged once. Throws InputError when the grids differ.
 std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
                                             const CompareSettings& settings, int threads,
                                             Progress* progress);
-
-// Statistics of the ratio loss_a / loss_b over the entries that both tables have.
-struct RatioSummary {
-  std::size_t entries = 0;
-  double mean = 0, p50 = 0, p95 = 0, p99 = 0, largest = 0;
-  double mean_loss_a = 0, mean_loss_b = 0;
-  std::size_t largest_entry = 0;  // flat index
-};
-// Over the entries `include` is true for; all where it is empty.
-RatioSummary summarize_ratios(const std::vector<EntryComparison>& entries,
-                              const std::vector<bool>& include = {});
 
 }  // namespace ltc

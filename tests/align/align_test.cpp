@@ -222,5 +222,44 @@ TEST(Align, NotANumberStaysOne) {
   EXPECT_TRUE(align(Eigen::Matrix3d::Constant(std::nan(""))).hasNaN());
 }
 
+// Matrices of ordinary and of flat lobes, in no special place.
+std::vector<Eigen::Matrix3d> any_matrices() {
+  std::vector<Eigen::Matrix3d> matrices(3);
+  matrices[0] << 0.8, 0.1, 0.3, -0.2, 0.5, 0.1, 0.1, 0.3, 0.9;
+  matrices[1] = matrices[0] * Eigen::Vector3d(1e-4, 1e-4, 1).asDiagonal();
+  matrices[2] = matrices[0] * Eigen::Vector3d(1, 1e-4, 1).asDiagonal();
+  return matrices;
+}
+
+TEST(AlignTo, FindsThePlantedTurnAndFlip) {
+  for (const Eigen::Matrix3d& matrix : any_matrices())
+    for (const double degrees : {0.0, 1e-3, 30.0, 90.0, 137.0, 180.0, 300.0})
+      for (const bool flip : {false, true}) {
+        const Eigen::Matrix3d other = 7.5 * matrix * turned(degrees * kPi / 180, flip, false);
+        const Eigen::Matrix3d back = align_to(matrix, other) / 7.5;
+        // Rounding of entries of 1, turned twice.
+        EXPECT_LT((back - matrix).cwiseAbs().maxCoeff(), 2e-15) << degrees << " " << flip;
+      }
+}
+
+TEST(AlignTo, TheMatrixItselfStaysTheSame) {
+  for (const Eigen::Matrix3d& matrix : any_matrices())
+    EXPECT_EQ(align_to(matrix, matrix), matrix);
+}
+
+TEST(AlignTo, NoTurnBringsAnotherLobeNearer) {
+  for (const Eigen::Matrix3d& matrix : any_matrices()) {
+    Eigen::Matrix3d other = matrix;
+    other.col(0) += Eigen::Vector3d(0.1, -0.2, 0.05) * matrix.col(0).norm();
+    other.col(1) *= 1.3;
+    const double least = (align_to(matrix, other) - matrix).norm();
+    EXPECT_GT(least, 0.01 * matrix.col(0).norm());
+    for (int degrees = 0; degrees < 360; ++degrees)
+      for (const bool flip : {false, true})
+        EXPECT_GE((other * turned(degrees * kPi / 180, flip, false) - matrix).norm(),
+                  least * (1 - 1e-12));
+  }
+}
+
 }  // namespace
 }  // namespace ltc

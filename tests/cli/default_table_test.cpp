@@ -18,7 +18,7 @@
 #include "fit/solver.h"
 #include "support/program.h"
 #include "support/table_faults.h"
-#include "validate/compare.h"
+#include "validate/comparison_summary.h"
 #include "validate/held_out.h"
 
 namespace ltc::test {

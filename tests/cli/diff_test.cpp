@@ -1,54 +1,25 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// ltcfit diff, through the real program: what it finds, writes and refuses.
+// ltcfit diff, through the real program: what it finds and writes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/diff_tables.h"
 #include "export/hdf5.h"
-#include "support/refused_run.h"
-#include "table/synthetic.h"
+#include "export/npy.h"
+#include "picture/png.h"
+#include "support/program.h"
 #include "validate/compare.h"
 
 namespace ltc::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::vector<std::string> quick = {"--samples", "256", "--directions", "4"};
-
-CompareSettings quick_settings() {
-  CompareSettings settings;
-  settings.samples = 256;
-  settings.directions = 4;
-  return settings;
-}
-
-std::vector<std::string> diff(const fs::path& a, const fs::path& b,
-                              std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments = {"diff", a.string(), b.string()};
-  arguments.insert(arguments.end(), quick.begin(), quick.end());
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
-Table example() {
-  return testing::synthetic_table(testing::uneven_grid(), Storage::matrix);
-}
-
-// alpha 0.1 seen from above, where the example's matrix is nearly the best: the one that is named
-// last in the file's order.
-constexpr NodeIndex damaged_node{0, 1, 0, 2};
-
-Table damaged_example() {
-  Table table = example();
-  const std::size_t flat = table.grid.flat(damaged_node);
-  Eigen::Matrix3d matrix = table.stored_at(flat);
-  matrix.col(0) *= 20;
-  table.set_stored(flat, matrix);
-  return table;
-}
+using Json = nlohmann::json;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
@@ -98,7 +69,7 @@ TEST(Diff, FindsTheDamagedEntry) {
   const ProgramResult result =
       run_ltcfit(diff(folder / "bad.h5", folder / "good.h5"), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("largest ratio at entry 0,1,0,2 (alpha 0.100, lambda 1.000, "
+  EXPECT_NE(result.out.find("\nLargest ratios\n0,1,0,2 (alpha 0.100, lambda 1.000, "
                             "theta 0.0, phi 60.0)\n"),
             std::string::npos)
       << result.out;
@@ -121,7 +92,9 @@ TEST(Diff, TheCsvHasEveryEntryInTheOrderOfTheGrid) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::vector<std::string> lines = lines_of(read_file(folder / "all.csv"));
   ASSERT_EQ(lines.size(), 1 + good.grid.size());
-  EXPECT_EQ(lines[0], "alpha,lambda,theta,phi,loss_a,loss_b,spread");
+  EXPECT_EQ(lines[0],
+            "alpha,lambda,theta,phi,loss_a,loss_b,spread,distance,"
+            "matrix_difference,amplitude_difference,fresnel_difference");
   const std::vector<EntryComparison> expected =
       compare_tables(bad, good, quick_settings(), 1, nullptr);
   for (std::size_t flat = 0; flat < good.grid.size(); ++flat) {
@@ -134,7 +107,9 @@ TEST(Diff, TheCsvHasEveryEntryInTheOrderOfTheGrid) {
     EXPECT_EQ(values, (std::vector<double>{
                           static_cast<double>(node.alpha), static_cast<double>(node.lambda),
                           static_cast<double>(node.theta), static_cast<double>(node.phi),
-                          expected[flat].loss_a, expected[flat].loss_b, expected[flat].spread}))
+                          expected[flat].loss_a, expected[flat].loss_b, expected[flat].spread,
+                          expected[flat].distance, expected[flat].matrix_difference,
+                          expected[flat].amplitude_difference, expected[flat].fresnel_difference}))
         << lines[1 + flat];
     EXPECT_EQ(expected[flat].loss_a != expected[flat].loss_b, node == damaged_node) << flat;
   }
@@ -157,36 +132,102 @@ TEST(Diff, EntriesThatOneTableLacksDoNotCount) {
   EXPECT_TRUE(lines_of(read_file(folder / "all.csv")).at(1 + flat).starts_with("1,0,2,1,nan,"));
 }
 
-TEST(DiffBadInput, IsRefusedInOneLineAndWritesNothing) {
-  const TemporaryDirectory tables;
-  write_hdf5(example(), tables / "a.h5");
-  write_hdf5(testing::synthetic_table(Grid::paper(2), Storage::matrix), tables / "small.h5");
-  Grid finer = testing::uneven_grid();
-  finer.alpha_min = 1e-5;
-  write_hdf5(testing::synthetic_table(finer, Storage::matrix), tables / "finer.h5");
-  const fs::path a = tables / "a.h5", garbage = tables.write("garbage.h5", "no table at all");
-  const std::string whole = read_file(a);
-  const fs::path cut = tables.write("cut.h5", whole.substr(0, whole.size() / 2));
-  const std::vector<std::string> csv = {"--csv", "all.csv"};
-  expect_refused(diff(a, tables / "small.h5", csv), 2,
-                 {"different shapes", "3x2x5x4", "2x2x2x2", "same grid"});
-  expect_refused(diff(a, tables / "finer.h5", csv), 2, {"alpha_min", "same grid"});
-  expect_refused(diff(a, tables / "none.h5", csv), 3, {"none.h5", "No such file"});
-  expect_refused(diff(tables / "none.npy", a, csv), 3, {"none.npy", "No such file"});
-  expect_refused(diff(tables.path(), a, csv), 2, {tables.path().string(), ".h5"});
-  expect_refused(diff(a, garbage, csv), 2, {"garbage.h5"});
-  expect_refused(diff(cut, a, csv), 2, {"cut.h5"});
-  expect_refused(diff(a, tables.write("a.txt", "x"), csv), 2, {"a.txt", ".h5", ".npy"});
-  expect_refused(diff(a, a, {"--csv", "/proc/none/all.csv"}), 3, {"/proc/none"});
-  expect_refused(diff(a, a, {"--csv", (a / "all.csv").string()}), 3, {a.string()});
-  expect_refused(diff(a, a, {"--csv", tables.path().string()}), 3,
-                 {tables.path().string(), "is a folder"});
-  // Nor does a folder for the file stay where the tables turn out not to match.
-  expect_refused(diff(a, tables / "small.h5", {"--csv", "new/all.csv"}), 2, {"different shapes"});
-  expect_refused({"diff", a.string(), a.string(), "--samples", "1"}, 2, {"--samples"});
-  expect_refused({"diff", a.string(), a.string(), "--directions", "0"}, 2, {"--directions"});
-  expect_refused({"diff", a.string(), a.string(), "--seed", "-1"}, 2, {"--seed"});
-  expect_refused({"diff", a.string()}, 2, {"B", "required"});
+// ---- What it reports ----
+
+TEST(Diff, TheJsonHasTheReport) {
+  const TemporaryDirectory folder;
+  write_hdf5(example(), folder / "good.h5");
+  write_hdf5(damaged_example(), folder / "bad.h5");
+  const ProgramResult result =
+      run_ltcfit(diff("bad.h5", "good.h5", {"--json", "new/all.json"}), folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json json = Json::parse(read_file(folder / "new/all.json"));
+  EXPECT_EQ(json["a"], "bad.h5");
+  EXPECT_EQ(json["shape"], (std::vector<int>{3, 2, 5, 4}));
+  EXPECT_EQ(json["compared"], 120);
+  EXPECT_TRUE(json["tolerance"].is_null());
+  const std::vector<EntryComparison> expected =
+      compare_tables(damaged_example(), example(), quick_settings(), 1, nullptr);
+  const std::size_t bad = example().grid.flat(damaged_node);
+  ASSERT_EQ(json["entries"].size(), 120u);
+  EXPECT_EQ(json["entries"][bad]["entry"], "0,1,0,2");
+  EXPECT_EQ(json["entries"][bad]["distance"], expected[bad].distance);
+  EXPECT_EQ(json["rows"][0]["name"], "all");
+  EXPECT_EQ(json["rows"][0]["a_nearer"], 0);
+  EXPECT_EQ(json["rows"][0]["b_nearer"], 1);
+  EXPECT_EQ(json["rows"][0]["distance"]["largest"], expected[bad].distance);
+  EXPECT_EQ(json["rows"][0]["distance"]["largest_entry"], "0,1,0,2");
+  for (const char* list : {"ratio", "distance"}) {
+    ASSERT_EQ(json["worst"][list].size(), 1u) << "the others are equal";
+    EXPECT_EQ(json["worst"][list][0]["command_a"], "ltcfit fit --config bad.h5 --entry 0,1,0,2");
+    EXPECT_EQ(json["worst"][list][0]["relative_distance"], expected[bad].relative_distance());
+  }
+}
+
+TEST(Diff, NamesThatAreNoUtf8HaveAReportToo) {
+  const TemporaryDirectory folder;
+  write_hdf5(example(), folder / "a\xff.h5");
+  const ProgramResult result = run_ltcfit(
+      diff("a\xff.h5", "a\xff.h5", {"--json", "all.json", "--map", "map.png"}), folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Json::parse(read_file(folder / "all.json"))["a"], "a\xef\xbf\xbd.h5");
+  EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"all.json", "a\xff.h5", "map.png"}));
+}
+
+TEST(Diff, ArraysOfMatricesHaveNoTermsToCompare) {
+  const TemporaryDirectory folder;
+  const Table table = testing::synthetic_table(Grid::paper(2), Storage::mirror_frame);
+  write_hdf5(table, folder / "t.h5");
+  write_npy(table, folder / "t.npy");
+  const ProgramResult result =
+      run_ltcfit(diff("t.h5", "t.npy", {"--tolerance", "1e-5"}), folder.path());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("amplitude and Fresnel terms are not compared: B has none\n"),
+            std::string::npos)
+      << result.out;
+  EXPECT_EQ(result.out.find("Differences of the integrals"), std::string::npos);
+  // The plane alpha = 0 stands apart.
+  EXPECT_EQ(row(result.out, "alpha > min").at(0), 8);
+  EXPECT_EQ(row(result.out, "alpha 0.000").at(0), 8);
+}
+
+TEST(Diff, ATableWithoutConfigIsLookedIntoByItsOwnMatrix) {
+  const TemporaryDirectory folder;
+  const auto command_for = [&](const Grid& grid) {
+    Table table = testing::synthetic_table(grid, Storage::matrix);
+    write_npy(table, folder / "good.npy");
+    table.set_stored(table.grid.size() - 1, Eigen::Matrix3d::Identity());
+    write_npy(table, folder / "bad.npy");
+    run_ltcfit(diff("bad.npy", "good.npy", {"--json", "all.json"}), folder.path());
+    return Json::parse(read_file(folder / "all.json"))["worst"]["distance"][0]["command_a"]
+        .get<std::string>();
+  };
+  EXPECT_EQ(command_for(Grid::paper({8, 8, 8, 8})),
+            "ltcfit fit --entry 7,7,7,7 --start from=bad.npy");
+  EXPECT_EQ(command_for(Grid::paper(2)),
+            "ltcfit fit --alpha-x 1 --alpha-y 1 --theta 89.991 --phi 90 --start from=bad.npy");
+}
+
+TEST(Diff, TheMapIsAPicture) {
+  const TemporaryDirectory folder;
+  write_hdf5(example(), folder / "good.h5");
+  write_hdf5(damaged_example(), folder / "bad.h5");
+  const ProgramResult result =
+      run_ltcfit(diff("bad.h5", "good.h5", {"--map", "map.png"}), folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const picture::test::DecodedPng png = picture::test::decode_png(read_file(folder / "map.png"));
+  // 3 x 2 tiles of 5 x 4 cells of 40 pixels, and words.
+  EXPECT_GT(png.width, 500);
+  EXPECT_GT(png.height, 600);
+  // The damaged entry's red is there, and elsewhere no colour but white.
+  std::size_t red = 0, blue = 0;
+  for (std::size_t i = 0; i < png.rgb.size(); i += 3) {
+    red += png.rgb[i] > png.rgb[i + 2] + 60;
+    blue += png.rgb[i + 2] > png.rgb[i] + 60;
+  }
+  EXPECT_GT(red, 500u);
+  EXPECT_GT(blue, 500u) << "the legend's blue half";
+  EXPECT_LT(blue, 20000u);
 }
 
 }  // namespace

@@ -208,6 +208,23 @@ TEST(Fit, StartsFromATable) {
   EXPECT_LT(json["loss"]["fit"].get<double>(), 1.01 * table.sw_loss[table.grid.flat({1, 0, 1, 1})]);
 }
 
+TEST(Fit, TakesTheConfigOfATable) {
+  const TemporaryDirectory folder;
+  ASSERT_EQ(run_ltcfit({"generate", "--set", "table.alpha.nodes=2", "--set", "table.lambda.nodes=1",
+                        "--set", "table.theta.nodes=2", "--set", "table.phi.nodes=2", "--set",
+                        "fit.seed=11"},
+                       folder.path())
+                .exit_code,
+            0);
+  const ProgramResult result =
+      run_ltcfit({"fit", "--config", "out/ltc.h5", "--entry", "1,0,1,1", "--json"}, folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out)["seed"], 11);
+  folder.write("text.h5", "no table");
+  EXPECT_EQ(
+      run_ltcfit({"fit", "--config", "text.h5", "--entry", "0,0,0,0"}, folder.path()).exit_code, 2);
+}
+
 // ---- Bad input ----
 
 TEST(FitBadInput, WhichLobe) {

@@ -198,6 +198,22 @@ TEST(Config, FilesAreNamedWithTheLine) {
   EXPECT_EQ(message("[table.alpha]\nfirst = 0.5\nlast = 0.25\n").find(":"), 0u);
 }
 
+TEST(Config, TextAtHandReadsAsAFileDoes) {
+  const Config config = parse_config("[fit]\nseed = 7\n", "t.h5", {});
+  EXPECT_EQ(config.fit.seed, 7u);
+  EXPECT_EQ(config.grid, Config{}.grid);
+  const std::vector<std::string> overrides = {"fit.seed=9"};
+  EXPECT_EQ(parse_config(to_toml(config), "t.h5", overrides).fit.seed, 9u);
+  for (const auto& [text, fault] : {std::pair{"[fit]\nsed = 7\n", "t.h5:2: unknown key fit.sed"},
+                                    {"[fit\n", "t.h5:1: not TOML"}})
+    try {
+      parse_config(text, "t.h5", {});
+      ADD_FAILURE() << text << " was accepted";
+    } catch (const InputError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with(fault)) << error.what();
+    }
+}
+
 TEST(Config, FilesThatCannotBeReadAreIoErrors) {
   const TemporaryDirectory folder;
   const auto message = [](const std::filesystem::path& file) {
