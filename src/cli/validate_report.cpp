@@ -34,9 +34,13 @@ std::string row_text(const Grid& grid, const InvariantResult& result) {
   if (!result.has_worst)
     return fmt::format("{:<20} {:>12}  {:<16} {}\n", result.name, "", "",
                        result.passed ? "passed" : "FAILED");
-  return fmt::format("{:<20} {:>12.4g}  {:<16} {:<8} {} ({})\n", result.name, result.value, limit,
-                     result.passed ? "passed" : "FAILED", entry_text(grid, result.worst),
-                     lobe_text(grid, result.worst));
+  // Where all entries have the least value there is, none is worst.
+  const bool none_is_worst = result.passed && result.value == 0;
+  const std::string where = none_is_worst ? ""
+                                          : fmt::format("{} ({})", entry_text(grid, result.worst),
+                                                        lobe_text(grid, result.worst));
+  return fmt::format("{:<20} {:>12.4g}  {:<16} {:<8} {}\n", result.name, result.value, limit,
+                     result.passed ? "passed" : "FAILED", where);
 }
 
 std::string failed_text(const ValidateReport& report, const InvariantResult& result,
