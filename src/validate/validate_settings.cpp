@@ -31,7 +31,7 @@ std::vector<Key> invariant_keys() {
       key("invariants.loss_excess", [](S& s) { return &s.invariants.loss_excess; }, Range{0, unbounded}, "largest loss of a lobe over the stored one"),
       key("invariants.neighbour_excess", [](S& s) { return &s.invariants.neighbour_excess; }, Range{0, unbounded}, "largest jump between neighbours over that of GGX"),
       key("invariants.albedo_points", [](S& s) { return &s.invariants.albedo_points; }, Range{64, 1 << 20}, "points of the fresh quadrature"),
-      key("invariants.samples", [](S& s) { return &s.invariants.samples; }, Range{256, 65536}, "samples of a lobe, for stored loss and neighbours"),
+      key("invariants.samples", [](S& s) { return &s.invariants.samples; }, Range{1024, 65536}, "samples of a lobe, for stored loss and neighbours; fewer are too noisy for their limits"),
       key("invariants.directions", [](S& s) { return &s.invariants.directions; }, Range{4, 4096}, "directions that they are projected on"),
   };
 }

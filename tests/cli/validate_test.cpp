@@ -79,7 +79,8 @@ TEST_F(Validate, PassesAGoodTable) {
   EXPECT_EQ(report["invariants"].size(), 13u);
   for (const Json& invariant : report["invariants"]) {
     EXPECT_EQ(invariant["passed"], true) << invariant;
-    EXPECT_NE(result.out.find("\n" + invariant["name"].get<std::string>() + " "), std::string::npos)
+    EXPECT_NE(result.out.find(std::string("\n").append(invariant["name"]).append(" ")),
+              std::string::npos)
         << result.out;
   }
   // The worst entry comes with the command that looks into it, with all that the config says.
@@ -99,7 +100,7 @@ TEST_F(Validate, TheCommandOfAnEntryReproducesIt) {
   const std::string command = result.out.substr(begin, result.out.find('\n', begin) - begin);
   EXPECT_TRUE(command.ends_with("--entry 2,1,1,2")) << command;
   const ProgramResult fit =
-      run_program({"sh", "-c", LTCFIT_PROGRAM + command.substr(6) + " --json"});
+      run_program({"sh", "-c", std::string(LTCFIT_PROGRAM).append(command, 6).append(" --json")});
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
   const Json stored = Json::parse(fit.out)["matrix"]["stored"];
   const Table table = read_hdf5(good());
@@ -185,7 +186,7 @@ TEST_F(Validate, SaysWhatAFileDoesNotHold) {
 TEST_F(Validate, LimitsComeFromTheConfig) {
   const TemporaryDirectory folder;
   const fs::path config =
-      folder.write("strict.toml", "[invariants]\ncondition_number = 10.0\nsamples = 256\n");
+      folder.write("strict.toml", "[invariants]\ncondition_number = 10.0\nsamples = 1024\n");
   const ProgramResult strict =
       run_ltcfit({"validate", good().string(), "--config", config.string()});
   EXPECT_EQ(strict.exit_code, 1);
