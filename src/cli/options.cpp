@@ -27,12 +27,15 @@ std::string check_threads(const std::string& text) {
 
 }  // namespace
 
+std::optional<std::filesystem::path> ConfigArguments::path() const {
+  return file.empty() ? std::nullopt : std::optional<std::filesystem::path>(file);
+}
+
 Config ConfigArguments::load() const {
-  const std::filesystem::path path(file);
-  if (path.extension() == ".h5")
-    return parse_config(read_hdf5(path).config, path, overrides);
-  return load_config(file.empty() ? std::nullopt : std::optional<std::filesystem::path>(file),
-                     overrides);
+  const std::optional<std::filesystem::path> config = path();
+  if (config && config->extension() == ".h5")
+    return parse_config(read_hdf5(*config).config, *config, overrides);
+  return load_config(config, overrides);
 }
 
 std::string ConfigArguments::as_text() const {
@@ -44,20 +47,20 @@ std::string ConfigArguments::as_text() const {
   return text;
 }
 
-void add_config_options(CLI::App& app, ConfigArguments& arguments) {
+void add_config_options(CLI::App& app, ConfigArguments& arguments, const ConfigHelp& help) {
   const auto not_empty = [](const std::string& text) {
     return std::string(text.empty() ? "is empty; expected a TOML file or a table's .h5" : "");
   };
-  app.add_option("-c,--config", arguments.file,
-                 "TOML file that says what differs from the defaults, or a table's .h5 [none]")
+  app.add_option("-c,--config", arguments.file, help.file)
       ->check(not_empty)
       ->option_text("FILE")
-      ->group("What to fit");
-  app.add_option("-s,--set", arguments.overrides,
-                 "change one key of the config, for example fit.seed=2; can be repeated")
+      ->group(help.group);
+  app.add_option(
+         "-s,--set", arguments.overrides,
+         fmt::format("change one key of the config, for example {}; can be repeated", help.example))
       ->allow_extra_args(false)
       ->option_text("KEY=VALUE")
-      ->group("What to fit");
+      ->group(help.group);
 }
 
 void add_output_option(CLI::App& app, std::string& folder) {

@@ -48,10 +48,12 @@ void check_together(const Draft& draft, const config::Sources& sources) {
 template <class Read>
 Config config_from(Read&& read, std::span<const std::string> overrides) {
   Draft draft = config::draft_of(Config{});
+  const config::Vocabulary vocabulary =
+      config::vocabulary(config::keys(), draft, "config/default.toml lists the keys there are");
   config::Sources sources;
-  read(draft, sources);
+  read(vocabulary, sources);
   for (const std::string& override : overrides)
-    config::read_override(override, draft, sources);
+    config::read_override(override, vocabulary, sources);
   check_together(draft, sources);
   return config::config_of(draft);
 }
@@ -61,9 +63,9 @@ Config config_from(Read&& read, std::span<const std::string> overrides) {
 Config load_config(const std::optional<std::filesystem::path>& file,
                    std::span<const std::string> overrides) {
   return config_from(
-      [&](Draft& draft, config::Sources& sources) {
+      [&](const config::Vocabulary& vocabulary, config::Sources& sources) {
         if (file)
-          config::read_file(*file, draft, sources);
+          config::read_file(*file, vocabulary, sources);
       },
       overrides);
 }
@@ -71,8 +73,8 @@ Config load_config(const std::optional<std::filesystem::path>& file,
 Config parse_config(std::string_view text, const std::filesystem::path& source,
                     std::span<const std::string> overrides) {
   return config_from(
-      [&](Draft& draft, config::Sources& sources) {
-        config::read_text(text, source, draft, sources);
+      [&](const config::Vocabulary& vocabulary, config::Sources& sources) {
+        config::read_text(text, source, vocabulary, sources);
       },
       overrides);
 }

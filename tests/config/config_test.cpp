@@ -328,7 +328,8 @@ TEST(ShippedConfigs, WhatTheyDoNotSayIsTheDefault) {
 TEST(ShippedConfigs, AllOfThemLoad) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(shipped("")))
-    if (entry.path().extension() == ".toml") {
+    // validate.toml is of another kind: validate_settings_test.cpp.
+    if (entry.path().extension() == ".toml" && entry.path().filename() != "validate.toml") {
       EXPECT_NO_THROW(load_config(entry.path(), {})) << entry.path();
       ++count;
     }
