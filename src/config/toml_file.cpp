@@ -11,12 +11,15 @@ namespace ltc::config {
 
 toml::table read_toml(const std::filesystem::path& file, std::string_view kind) {
   constexpr std::size_t largest_bytes = 1 << 20;  // people write a few kB; /dev/zero has no end
-  const std::string content = read_whole_file(file, kind, largest_bytes);
+  return parse_toml(read_whole_file(file, kind, largest_bytes), file);
+}
+
+toml::table parse_toml(std::string_view text, const std::filesystem::path& source) {
   try {
-    return toml::parse(content);
+    return toml::parse(text);
   } catch (const toml::parse_error& error) {
     throw InputError(
-        fmt::format("{}: not TOML: {}", place_of(file, error.source()), error.description()));
+        fmt::format("{}: not TOML: {}", place_of(source, error.source()), error.description()));
   }
 }
 

@@ -17,6 +17,9 @@ namespace ltc::config {
 // Throws IoError if it cannot be read, InputError if it is larger or not TOML.
 toml::table read_toml(const std::filesystem::path& file, std::string_view kind);
 
+// The same of a text that `source` holds.
+toml::table parse_toml(std::string_view text, const std::filesystem::path& source);
+
 // "config/default.toml:12": where something stands.
 std::string place_of(const std::filesystem::path& file, const toml::source_region& region);
 

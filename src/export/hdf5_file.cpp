@@ -228,16 +228,17 @@ std::vector<T> Hdf5Input::values(const std::string& dataset,
   return values;
 }
 
-Hdf5Output::Hdf5Output(const std::filesystem::path& path, std::string shown_as)
-    : name_(std::move(shown_as)) {
+Hdf5Output::Hdf5Output(std::string shown_as) : name_(std::move(shown_as)) {
   keep_library_errors_off_the_terminal();
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_file_locking(access.id(), false, true);
+  constexpr std::size_t increment = std::size_t{1} << 20;  // that memory is taken in
+  constexpr bool on_disk_too = false;
+  H5Pset_fapl_core(access.id(), increment, on_disk_too);
   // The format of HDF5 1.8, which every reader of today knows: its metadata carry checksums.
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  file_ = checked({H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose},
+  file_ = checked({H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose},
                   "the file cannot be created");
 }
 
@@ -303,9 +304,14 @@ void Hdf5Output::values(const std::string& dataset, const std::vector<std::size_
       "dataset " + dataset);
 }
 
-void Hdf5Output::finish() {
+std::string Hdf5Output::finish() {
   check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0, "the last bytes were refused");
+  const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
+  check(size > 0, "the file has no bytes");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  check(H5Fget_file_image(file_.id(), bytes.data(), bytes.size()) == size, "its bytes are lacking");
   check(file_.close(), "the file cannot be closed");
+  return bytes;
 }
 
 template std::vector<float> Hdf5Input::values(const std::string&,
@@ -316,6 +322,8 @@ template std::vector<std::uint8_t> Hdf5Input::values(const std::string&,
                                                      const std::vector<std::size_t>&) const;
 template std::vector<std::uint16_t> Hdf5Input::values(const std::string&,
                                                       const std::vector<std::size_t>&) const;
+template std::vector<std::int32_t> Hdf5Input::values(const std::string&,
+                                                     const std::vector<std::size_t>&) const;
 template void Hdf5Output::number(const std::string&, const std::string&, double);
 template void Hdf5Output::number(const std::string&, const std::string&, std::int32_t);
 template void Hdf5Output::number(const std::string&, const std::string&, std::uint64_t);
@@ -327,5 +335,7 @@ template void Hdf5Output::values(const std::string&, const std::vector<std::size
                                  std::span<const std::uint8_t>);
 template void Hdf5Output::values(const std::string&, const std::vector<std::size_t>&,
                                  std::span<const std::uint16_t>);
+template void Hdf5Output::values(const std::string&, const std::vector<std::size_t>&,
+                                 std::span<const std::int32_t>);
 
 }  // namespace ltc
