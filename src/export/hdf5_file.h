@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -95,6 +96,7 @@ class Hdf5Output {
   Hdf5Handle checked(Hdf5Handle handle, const std::string& what) const;
 
   std::string name_;
+  std::unique_ptr<std::string> image_;  // the library writes to it as long as the file is open
   Hdf5Handle file_;
 };
 
