@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the ltcfit authors
+"""Kills `ltcfit generate` with SIGKILL at random moments, resumes it, and compares the files with
+those of an undisturbed run, byte for byte but for the time of creation.
+
+    tests/stress/kill_and_resume.py build/release/ltcfit [--kills 20] [--seed 1] [-- OPTION...]
+
+Every kill is a trial of its own: a fresh folder with older files in it, one kill at a moment drawn
+uniformly from the time that the undisturbed run takes, then --resume to the end. Options after --
+go to `ltcfit generate`; without any, it is the default config. Exit code 1 if a trial fails.
+"""
+import argparse
+import pathlib
+import random
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+OLD = b"an older file"
+CHECKPOINT = "ltc.checkpoint.h5"
+
+
+def read_files(folder):
+    """Name -> bytes; the HDF5 file's time of creation blanked."""
+    files = {path.name: path.read_bytes() for path in folder.iterdir()}
+    if files.get("ltc.h5", OLD) != OLD:
+        files["ltc.h5"], times = re.subn(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", b"-" * 20,
+                                         files["ltc.h5"])
+        assert times == 1, f"{times} times of creation instead of one"
+    return files
+
+
+def start(arguments, folder, log, resume=False):
+    command = [arguments.program.resolve(), "generate", "--output", folder,
+               "--checkpoint-seconds", str(arguments.checkpoint_seconds), *arguments.options]
+    return subprocess.Popen([*command, "--resume"] if resume else command, stdout=log, stderr=log)
+
+
+def undisturbed_run(arguments, folder, log):
+    began = time.monotonic()
+    if start(arguments, folder, log).wait() != 0:
+        sys.exit(f"the undisturbed run failed: {log.name}")
+    return read_files(folder), time.monotonic() - began
+
+
+def trial(arguments, folder, log, expected, moment):
+    """What went wrong, or nothing; and what the kill left."""
+    for name in expected:
+        (folder / name).write_bytes(OLD)
+    process = start(arguments, folder, log)
+    try:
+        code = process.wait(timeout=moment)
+        left = f"ended by itself, exit code {code}"
+    except subprocess.TimeoutExpired:
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        left = "a checkpoint" if (folder / CHECKPOINT).exists() else "no checkpoint"
+    between = read_files(folder)
+    for name in expected:
+        if between[name] not in (OLD, expected[name]):
+            return f"{name} is neither the older file nor the new one after the kill", left
+    code = start(arguments, folder, log, resume=True).wait()
+    if code != 0:
+        return f"the resumed run ended with {code}", left
+    files = read_files(folder)
+    if files.keys() != expected.keys():
+        return f"files {sorted(files)}; expected {sorted(expected)}", left
+    different = [name for name in files if files[name] != expected[name]]
+    return ", ".join(different) and f"other bytes in {', '.join(different)}", left
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("--kills", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--checkpoint-seconds", type=float, default=0.2)
+    parser.add_argument("options", nargs="*")
+    arguments = parser.parse_args()
+    moments = random.Random(arguments.seed)
+    failed = with_checkpoint = 0
+    with tempfile.TemporaryDirectory() as base, tempfile.NamedTemporaryFile(
+            prefix="kill-and-resume-", suffix=".log", delete=False) as log:
+        base = pathlib.Path(base)
+        (base / "undisturbed").mkdir()
+        expected, seconds = undisturbed_run(arguments, base / "undisturbed", log)
+        print(f"undisturbed: {seconds:.2f} s, {len(expected)} files")
+        for number in range(1, arguments.kills + 1):
+            folder = base / str(number)
+            folder.mkdir()
+            moment = moments.uniform(0, seconds)
+            fault, left = trial(arguments, folder, log, expected, moment)
+            failed += bool(fault)
+            with_checkpoint += left == "a checkpoint"
+            print(f"{number:3}: killed after {moment:.2f} s, left {left}: {fault or 'same bytes'}",
+                  flush=True)
+    print(f"{arguments.kills - failed} of {arguments.kills} resumed to the same bytes; "
+          f"{with_checkpoint} from a checkpoint, the others from the beginning")
+    sys.exit(1 if failed else 0)
+
+
+main()
