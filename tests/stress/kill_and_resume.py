@@ -7,8 +7,9 @@ those of an undisturbed run, byte for byte but for the time of creation.
     tests/stress/kill_and_resume.py build/release/ltcfit [--kills 20] [--seed 1] [-- OPTION...]
 
 Every kill is a trial of its own: a fresh folder with older files in it, one kill at a moment drawn
-uniformly from the time that the undisturbed run takes, then --resume to the end. Options after --
-go to `ltcfit generate`; without any, it is the default config. Exit code 1 if a trial fails.
+uniformly from the time that the undisturbed run takes, then --resume to the end. A run that is done
+before its moment is no trial: another moment is drawn. Options after -- go to `ltcfit generate`;
+without any, it is the default config. Exit code 1 if a trial fails.
 """
 import argparse
 import pathlib
@@ -47,30 +48,32 @@ def undisturbed_run(arguments, folder, log):
     return read_files(folder), time.monotonic() - began
 
 
-def trial(arguments, folder, log, expected, moment):
-    """What went wrong, or nothing; and what the kill left."""
+def killed_run(arguments, folder, log, expected, moment):
+    """Whether a run in the folder, with older files there, was killed at the moment."""
     for name in expected:
         (folder / name).write_bytes(OLD)
     process = start(arguments, folder, log)
     try:
-        code = process.wait(timeout=moment)
-        left = f"ended by itself, exit code {code}"
+        process.wait(timeout=moment)
     except subprocess.TimeoutExpired:
         process.send_signal(signal.SIGKILL)
-        process.wait()
-        left = "a checkpoint" if (folder / CHECKPOINT).exists() else "no checkpoint"
-    between = read_files(folder)
+    return process.wait() == -signal.SIGKILL
+
+
+def fault_after_kill(arguments, folder, log, expected):
+    """What is wrong with the files that a kill left, or with those of the resumed run; or nothing."""
+    left = read_files(folder)
     for name in expected:
-        if between[name] not in (OLD, expected[name]):
-            return f"{name} is neither the older file nor the new one after the kill", left
+        if left[name] not in (OLD, expected[name]):
+            return f"{name} is neither the older file nor the new one after the kill"
     code = start(arguments, folder, log, resume=True).wait()
     if code != 0:
-        return f"the resumed run ended with {code}", left
+        return f"the resumed run ended with {code}"
     files = read_files(folder)
     if files.keys() != expected.keys():
-        return f"files {sorted(files)}; expected {sorted(expected)}", left
+        return f"files {sorted(files)}; expected {sorted(expected)}"
     different = [name for name in files if files[name] != expected[name]]
-    return ", ".join(different) and f"other bytes in {', '.join(different)}", left
+    return f"other bytes in {', '.join(different)}" if different else ""
 
 
 def main():
@@ -90,15 +93,19 @@ def main():
         (base / "undisturbed").mkdir()
         expected, seconds = undisturbed_run(arguments, base / "undisturbed", log)
         print(f"undisturbed: {seconds:.2f} s, {len(expected)} files")
-        for number in range(1, arguments.kills + 1):
-            folder = base / str(number)
-            folder.mkdir()
+        kills = 0
+        while kills < arguments.kills:
+            folder = pathlib.Path(tempfile.mkdtemp(dir=base))
             moment = moments.uniform(0, seconds)
-            fault, left = trial(arguments, folder, log, expected, moment)
+            if not killed_run(arguments, folder, log, expected, moment):
+                continue
+            kills += 1
+            kept = (folder / CHECKPOINT).exists()
+            with_checkpoint += kept
+            fault = fault_after_kill(arguments, folder, log, expected)
             failed += bool(fault)
-            with_checkpoint += left == "a checkpoint"
-            print(f"{number:3}: killed after {moment:.2f} s, left {left}: {fault or 'same bytes'}",
-                  flush=True)
+            print(f"{kills:3}: killed after {moment:.2f} s with {'a' if kept else 'no'} checkpoint: "
+                  f"{fault or 'same bytes'}", flush=True)
     print(f"{arguments.kills - failed} of {arguments.kills} resumed to the same bytes; "
           f"{with_checkpoint} from a checkpoint, the others from the beginning")
     sys.exit(1 if failed else 0)
