@@ -32,9 +32,21 @@ void CheckpointKeeper::guard(const std::function<void()>& work) {
   try {
     guard_stops(work);
   } catch (const InputError& error) {
+    save_if_possible();
     throw InputError(with_way_on(error.what()));
   } catch (const IoError& error) {
+    save_if_possible();
     throw IoError(with_way_on(error.what()));
+  }
+}
+
+void CheckpointKeeper::save_if_possible() {
+  end_thread();
+  try {
+    if (exists())
+      write_if_new();
+  } catch (const IoError&) {
+    // The one before stands, and what the run ended with is the message to give.
   }
 }
 

@@ -50,6 +50,7 @@ class CheckpointKeeper {
 
  private:
   void guard_stops(const std::function<void()>& work);
+  void save_if_possible();
   std::string with_way_on(const std::string& message) const;
   void end_thread();
   void write_until_closed();
