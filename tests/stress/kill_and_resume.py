@@ -83,8 +83,10 @@ def main():
     parser.add_argument("--kills", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--checkpoint-seconds", type=float, default=0.2)
-    parser.add_argument("options", nargs="*")
-    arguments = parser.parse_args()
+    words = sys.argv[1:]
+    end = words.index("--") if "--" in words else len(words)
+    arguments = parser.parse_args(words[:end])
+    arguments.options = words[end + 1:]  # those of ltcfit
     moments = random.Random(arguments.seed)
     failed = with_checkpoint = 0
     with tempfile.TemporaryDirectory() as base, tempfile.NamedTemporaryFile(
