@@ -17,7 +17,7 @@
 #include "cli/progress.h"
 #include "core/error.h"
 #include "core/platform.h"
-#include "export/file.h"
+#include "core/write_file.h"
 #include "export/reader.h"
 
 namespace ltc::cli {

@@ -16,7 +16,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "core/error.h"
-#include "export/file.h"
+#include "core/write_file.h"
 #include "export/reader.h"
 #include "validate/ratio_map.h"
 

@@ -17,7 +17,7 @@
 #include "core/error.h"
 #include "core/platform.h"
 #include "core/progress.h"
-#include "export/file.h"
+#include "core/write_file.h"
 #include "export/reader.h"
 #include "fit/symmetry_plan.h"
 #include "scene/coverage.h"

@@ -6,16 +6,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <memory>
 #include <optional>
 
+#include "cli/checkpoint_keeper.h"
 #include "cli/command.h"
+#include "cli/entry_text.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/summary.h"
+#include "core/error.h"
 #include "core/platform.h"
 #include "export/exr.h"
 #include "export/hdf5.h"
@@ -36,7 +40,22 @@ struct Arguments {
   std::string extend;  // empty: a new table
   std::string output = "out";
   int threads = default_threads();
+  bool resume = false;
+  double checkpoint_seconds = 5;
 };
+
+constexpr double most_checkpoint_seconds = 86400;
+
+// A message if the text is no time between checkpoints.
+std::string check_checkpoint_seconds(const std::string& text) {
+  double seconds = -1;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, seconds);
+  if (error == std::errc() && stop == end && seconds >= 0 && seconds <= most_checkpoint_seconds)
+    return "";
+  return fmt::format("{} is not allowed; expected a number in [0, {}]", text,
+                     most_checkpoint_seconds);
+}
 
 // NPY says nothing of axes and storage: it is for the paper's grid alone.
 bool writes_npy(const Config& config) {
@@ -64,14 +83,24 @@ void require_replaceable(const std::vector<fs::path>& files) {
                                 file.string()));
 }
 
+// All or none: an older set of files stands until the new one is on the disk.
 void write_files(const Table& table, const Config& config, const fs::path& folder) {
   const OutputSettings& output = config.output;
+  platform::FileSet files;
   if (output.hdf5)
-    write_hdf5(table, folder / (output.name + ".h5"));
+    add_hdf5(files, table, folder / (output.name + ".h5"));
   if (output.exr)
-    write_exr(table, folder / output.name, output.exr_half);
+    add_exr(files, table, folder / output.name, output.exr_half);
   if (writes_npy(config))
-    write_npy(table, folder / (output.name + ".npy"));
+    add_npy(files, table, folder / (output.name + ".npy"));
+  files.commit();
+}
+
+// Temporary files of runs that were killed. Only with the folder locked.
+void remove_abandoned(const std::vector<fs::path>& files, const fs::path& checkpoint) {
+  platform::remove_abandoned_temporaries(checkpoint);
+  for (const fs::path& file : files)
+    platform::remove_abandoned_temporaries(file);
 }
 
 // What a scene and an existing table leave to do.
@@ -98,11 +127,67 @@ std::size_t count_true(const std::vector<bool>& flags) {
   return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), true));
 }
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::size_t count_failed(const Table& table) {
+  return static_cast<std::size_t>(
+      std::count(table.status.begin(), table.status.end(), Status::failed));
+}
+
+// Nothing to write, rather than files of NaN.
+void require_any_value(const Table& table) {
+  if (count_failed(table) > 0 && std::none_of(table.status.begin(), table.status.end(), has_values))
+    throw CheckFailure(fmt::format(
+        "none of {} entries has a finite fit; nothing was written; other settings of the solver "
+        "may do",
+        count_failed(table)));
+}
+
+// Fits the table and writes its files, or leaves a checkpoint to go on from.
+Table make_files(const Arguments& arguments, const Config& config, const Work& work,
+                 const fs::path& folder, Progress& progress, RunReport& report) {
+  const CheckpointTask task{folder / (config.output.name + ".checkpoint.h5"), config, work.to_fit,
+                            arguments.checkpoint_seconds};
+  const std::unique_ptr<FitJournal> journal = open_journal(task, arguments.resume);
+  report.resumed = journal->count();
+  remove_abandoned(report.files, task.file);
+  Table table;
+  CheckpointKeeper keeper(task, *journal, progress);
+  keeper.guard([&] {
+    table = generate_table(config, work.to_fit, arguments.threads, &progress, &report.generate,
+                           journal.get());
+    keeper.close();
+    if (work.existing)
+      table = extended(*work.existing, table);
+    require_any_value(table);
+    // The last chance to stop: the files are written all or none.
+    progress.throw_if_stopped();
+    const Clock::time_point writing_began = Clock::now();
+    write_files(table, config, folder);
+    report.generate.stage_seconds.emplace_back("write", seconds_since(writing_began));
+  });
+  keeper.remove();
+  return table;
+}
+
+// The files are there, but whoever waits for them should know.
+void require_none_failed(const Table& table) {
+  const std::size_t failed = count_failed(table);
+  if (failed == 0)
+    return;
+  const auto first = std::find(table.status.begin(), table.status.end(), Status::failed);
+  throw CheckFailure(
+      fmt::format("{} of {} entries have no finite fit and hold NaN, entry {} the first; the files "
+                  "were written",
+                  failed, table.status.size(),
+                  entry_text(table.grid, static_cast<std::size_t>(first - table.status.begin()))));
+}
+
 void generate(const Arguments& arguments) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-  };
   const Clock::time_point began = Clock::now();
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
@@ -110,24 +195,16 @@ void generate(const Arguments& arguments) {
   const Config config = arguments.config.load();
   const Work work = plan_work(arguments, config);
   const OutputFolder folder(arguments.output);
+  const platform::FolderLock lock(folder.path());
   RunReport report;
   report.files = files_of(config, folder.path());
   require_replaceable(report.files);
 
-  Table table = generate_table(config, work.to_fit, arguments.threads, &progress, &report.generate);
-  if (work.existing)
-    table = extended(*work.existing, table);
+  const Table table = make_files(arguments, config, work, folder.path(), progress, report);
   report.needed = count_true(work.needed);
   report.added = count_true(work.to_fit);
   report.extends = work.existing.has_value();
   report.npy_left_out = config.output.npy && !writes_npy(config);
-
-  // The last chance to stop: the files are written all or none.
-  progress.throw_if_stopped();
-  const Clock::time_point writing_began = Clock::now();
-  write_files(table, config, folder.path());
-  report.generate.stage_seconds.emplace_back("write", seconds_since(writing_began));
-
   report.seconds = seconds_since(began);
   report.peak_memory_bytes = platform::peak_memory_bytes();
   report.debug_command = "ltcfit fit" + arguments.config.as_text();
@@ -135,6 +212,7 @@ void generate(const Arguments& arguments) {
     report.debug_command += " --scene " + shell_quoted(arguments.scene);
   report.debug_command += " --entry";
   print(summary_text(table, report));
+  require_none_failed(table);
 }
 
 }  // namespace
@@ -148,6 +226,15 @@ Action declare_generate(CLI::App& app) {
   app.add_option("--extend", arguments->extend,
                  "keep the entries of this .h5 bit for bit and add what is lacking [none]");
   add_output_option(app, arguments->output);
+  app.add_flag("--resume", arguments->resume,
+               "go on from the checkpoint that a run left in the folder when it was cut short")
+      ->group("How to run");
+  app.add_option("--checkpoint-seconds", arguments->checkpoint_seconds,
+                 fmt::format("time between checkpoints, up to {}; 0: none [{}]",
+                             most_checkpoint_seconds, arguments->checkpoint_seconds))
+      ->check(check_checkpoint_seconds)
+      ->option_text("S")
+      ->group("How to run");
   add_threads_option(app, arguments->threads);
   return [arguments] { generate(*arguments); };
 }

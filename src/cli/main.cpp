@@ -15,6 +15,7 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "core/error.h"
+#include "core/platform.h"
 #include "core/version.h"
 
 namespace ltc::cli {
@@ -135,13 +136,14 @@ int main(int argument_count, char** arguments) {
   using namespace ltc;
   using namespace ltc::cli;
   try {
+    platform::report_file_size_limit_as_error();
     return run(argument_count, arguments);
   } catch (const InputError& error) {
     return report(bad_input, error.what());
   } catch (const IoError& error) {
     return report(io_failure, error.what());
   } catch (const Interrupted& error) {
-    return report(interrupted, "interrupted; nothing was written");
+    return report(interrupted, error.what());
   } catch (const CheckFailure& error) {
     return report(failure, error.what());
   } catch (const std::bad_alloc&) {

@@ -40,16 +40,18 @@ std::string loss_text(const TableSummary& summary) {
                      summary.mean_loss, summary.p95_loss, summary.largest_loss);
 }
 
-// What a scene and a table to extend have spared; nothing where there was neither.
+// What a scene, a table to extend and a checkpoint have spared; nothing where there was none.
 std::string scene_text(const Table& table, const RunReport& report) {
   std::string text;
   if (report.needed < table.grid.size())
     text += fmt::format("scene    {} of {} entries needed\n", report.needed, table.grid.size());
   if (report.extends)
     text += fmt::format("extended {} entries added, the others kept\n", report.added);
+  if (report.resumed > 0)
+    text += fmt::format("resumed  {} fits taken from the checkpoint\n", report.resumed);
   const GenerateReport& made = report.generate;
   const double seconds = made.stage_seconds.empty() ? 0 : made.stage_seconds.front().second;
-  if (made.fits > 0 && made.fits < made.fits_of_whole_grid)
+  if (report.resumed == 0 && made.fits > 0 && made.fits < made.fits_of_whole_grid)
     text += fmt::format(
         "saved    about {}: {} lobes fitted instead of {}\n",
         duration_text(seconds * static_cast<double>(made.fits_of_whole_grid - made.fits) /

@@ -17,6 +17,7 @@ struct RunReport {
   std::size_t needed = 0;     // entries that the scene needs; all without a scene
   std::size_t added = 0;      // of these, not in the table that is extended
   bool extends = false;       // whether one is
+  std::size_t resumed = 0;    // fits taken from a checkpoint
   bool npy_left_out = false;  // asked for, but the grid is not the paper's
   double seconds = 0;         // the whole run, files included
   std::size_t peak_memory_bytes = 0;

@@ -7,6 +7,7 @@
 #include "config/draft.h"
 #include "config/reader.h"
 #include "config/registry.h"
+#include "config/toml_file.h"
 #include "core/error.h"
 
 namespace ltc {
@@ -91,6 +92,21 @@ std::string to_toml(const Config& config) {
     text += fmt::format("{} = {}\n", key.name.substr(dot + 1), config::toml_of(key.get(draft)));
   }
   return text;
+}
+
+std::optional<KeyDifference> first_difference(const Config& config, const std::string& toml,
+                                              const std::filesystem::path& source) {
+  const toml::table table = config::parse_toml(toml, source);
+  const Draft draft = config::draft_of(config);
+  for (const config::Key& key : config::keys()) {
+    if (key.name.starts_with("output."))
+      continue;
+    const toml::node* const node = table.at_path(key.name).node();
+    const std::string other = node ? config::toml_of(config::value_of(*node)) : "";
+    if (const std::string value = config::toml_of(key.get(draft)); value != other)
+      return KeyDifference{key.name, value, other};
+  }
+  return std::nullopt;
 }
 
 std::vector<ConfigKey> config_keys() {

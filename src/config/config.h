@@ -50,6 +50,18 @@ Config parse_config(std::string_view text, const std::filesystem::path& source,
 // that load_config returns are.)
 std::string to_toml(const Config& config);
 
+// A key of which a config and a text disagree, and its values as TOML; `other` is empty where the
+// text has none.
+struct KeyDifference {
+  std::string key, value, other;
+};
+
+// The first key outside of [output], in the order of the file, whose value in `toml` is not that of
+// `config`: what would make other fits. `toml` is what to_toml once gave; throws InputError naming
+// `source` if it is no TOML at all.
+std::optional<KeyDifference> first_difference(const Config& config, const std::string& toml,
+                                              const std::filesystem::path& source);
+
 // What can be configured, in the order of the file; see src/config/registry.cpp, where keys are
 // added.
 struct ConfigKey {

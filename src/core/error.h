@@ -28,10 +28,11 @@ class CheckFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The caller asked for a stop while work was under way; nothing was written. Exit code 130.
+// The caller asked for a stop while work was under way; no result was written. Exit code 130.
 class Interrupted : public std::runtime_error {
  public:
-  Interrupted() : std::runtime_error("interrupted") {}
+  Interrupted() : Interrupted("interrupted; nothing was written") {}
+  explicit Interrupted(const std::string& message) : std::runtime_error(message) {}
 };
 
 }  // namespace ltc

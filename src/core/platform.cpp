@@ -3,16 +3,19 @@
 #include "core/platform.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <set>
 #include <system_error>
 
 #include <fmt/chrono.h>
@@ -30,25 +33,41 @@ namespace fs = std::filesystem;
 }
 
 // fsync by name: a file's content, or a folder's list of names.
-void flush_to_disk(const fs::path& path, int flags) {
+void flush_to_disk(const fs::path& path, int flags, const fs::path& shown_as) {
   const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
   if (descriptor < 0)
-    throw_io("cannot open", path, errno);
+    throw_io("cannot write", shown_as, errno);
   const int failed = ::fsync(descriptor);
   const int error = errno;
   ::close(descriptor);
   // Some file systems cannot flush a folder; that is no reason to refuse the file.
   if (failed && !(flags & O_DIRECTORY && error == EINVAL))
-    throw_io("cannot flush", path, error);
+    throw_io("cannot write", shown_as, error);
 }
 
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// Unique to this process, so that two runs in one folder never share a temporary file.
+// Names of temporary files: ".<name>.<process>.tmp", so that no two processes share one.
+constexpr std::string_view temporary_end = ".tmp";
+
+std::string temporary_start(const fs::path& path) {
+  return fmt::format(".{}.", path.filename().string());
+}
+
 fs::path temporary_beside(const fs::path& path) {
-  return folder_of(path) / fmt::format(".{}.{}.tmp", path.filename().string(), ::getpid());
+  return folder_of(path) / fmt::format("{}{}{}", temporary_start(path), ::getpid(), temporary_end);
+}
+
+bool is_temporary_of(const fs::path& path, std::string_view name) {
+  const std::string start = temporary_start(path);
+  if (name.size() <= start.size() + temporary_end.size() || !name.starts_with(start) ||
+      !name.ends_with(temporary_end))
+    return false;
+  name.remove_prefix(start.size());
+  name.remove_suffix(temporary_end.size());
+  return name.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 void (*interrupt_handler)() = nullptr;
@@ -60,18 +79,70 @@ extern "C" void handle_signal(int) {
 
 }  // namespace
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  const fs::path temporary = temporary_beside(path);
+FileSet::~FileSet() {
+  for (const File& file : written_)
+    ::unlink(file.temporary.c_str());
+}
+
+void FileSet::add(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  const File file{temporary_beside(path), path};
   try {
-    write(temporary);
-    flush_to_disk(temporary, O_RDONLY);
-    if (std::rename(temporary.c_str(), path.c_str()) != 0)
-      throw_io("cannot write", path, errno);
+    write(file.temporary);
+    flush_to_disk(file.temporary, O_RDONLY, path);
+    written_.push_back(file);
   } catch (...) {
-    ::unlink(temporary.c_str());
+    ::unlink(file.temporary.c_str());
     throw;
   }
-  flush_to_disk(folder_of(path), O_RDONLY | O_DIRECTORY);
+}
+
+void FileSet::commit() {
+  std::set<fs::path> folders;
+  while (!written_.empty()) {
+    const File& file = written_.front();
+    if (std::rename(file.temporary.c_str(), file.path.c_str()) != 0)
+      throw_io("cannot write", file.path, errno);
+    folders.insert(folder_of(file.path));
+    written_.erase(written_.begin());
+  }
+  for (const fs::path& folder : folders)
+    flush_to_disk(folder, O_RDONLY | O_DIRECTORY, folder);
+}
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  FileSet file;
+  file.add(path, write);
+  file.commit();
+}
+
+void remove_abandoned_temporaries(const fs::path& path) {
+  std::error_code ignored;
+  std::vector<fs::path> abandoned;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(path), ignored))
+    if (is_temporary_of(path, entry.path().filename().string()))
+      abandoned.push_back(entry.path());
+  for (const fs::path& temporary : abandoned)
+    ::unlink(temporary.c_str());
+}
+
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0)
+    throw_io("cannot open output folder", folder, errno);
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+    return;
+  ::close(descriptor_);
+  throw IoError(fmt::format("another run is working in output folder {}; wait for it, or name "
+                            "another folder",
+                            folder.string()));
+}
+
+FolderLock::~FolderLock() {
+  ::close(descriptor_);
+}
+
+void report_file_size_limit_as_error() {
+  ::signal(SIGXFSZ, SIG_IGN);
 }
 
 void require_writable_folder(const fs::path& folder) {
@@ -81,6 +152,7 @@ void require_writable_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error)
     throw IoError(fmt::format("cannot create output folder {}: {}", folder.string(), error.message()));
+  remove_abandoned_temporaries(folder / "probe");
   const fs::path probe = temporary_beside(folder / "probe");
   const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (descriptor < 0)

@@ -8,15 +8,62 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace ltc::platform {
 
-// Calls `write` with the name of a temporary file in the same folder as `path`, flushes what it
-// wrote to the disk and renames it to `path`. If `write` throws, or the flush or the rename fails,
-// the temporary file is removed and an older `path` stands as it was. Throws IoError on what the
-// system refuses; lets `write`'s own exceptions through.
+// Files that take their places together, once all of them are written: as long as anything can
+// still fail for want of space, every older file stands as it was.
+class FileSet {
+ public:
+  FileSet() = default;
+  ~FileSet();  // removes what was written and not committed
+  FileSet(const FileSet&) = delete;
+  FileSet& operator=(const FileSet&) = delete;
+
+  // Calls `write` with the name of a temporary file in the same folder as `path` and flushes what
+  // it wrote to the disk. Throws IoError on what the system refuses; lets `write`'s own exceptions
+  // through; the temporary file is then gone.
+  void add(const std::filesystem::path& path,
+           const std::function<void(const std::filesystem::path&)>& write);
+
+  // Renames all to their paths, in the order they were added. Throws IoError if a name is refused;
+  // the files before it have then taken their places.
+  void commit();
+
+ private:
+  struct File {
+    std::filesystem::path temporary, path;
+  };
+  std::vector<File> written_;
+};
+
+// A set of one: `path` is written whole or, where anything fails, stands as it was.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
+
+// Removes temporary files that processes left beside `path` when they were killed while writing it.
+// Only for who knows that nobody writes `path` now.
+void remove_abandoned_temporaries(const std::filesystem::path& path);
+
+// Keeps other processes that ask for the same from working in a folder while it lives. The system
+// gives the lock back when the process ends, however it ends, and nothing lies in the folder for
+// it. On a file system without locks it does nothing.
+class FolderLock {
+ public:
+  // Throws IoError if another process has the lock or the folder cannot be opened.
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+// From now on, writing beyond the size that the user allows for files (ulimit -f) is an error of
+// the write, and no longer ends the process.
+void report_file_size_limit_as_error();
 
 // Creates the folder and its parents if need be and proves that a file can be created in it.
 // Throws IoError naming the folder and the reason.

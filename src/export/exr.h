@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "core/platform.h"
 #include "table/table.h"
 
 namespace ltc {
@@ -13,12 +14,16 @@ namespace ltc {
 // <prefix>.<index>.exr, index 0 to 2.
 std::filesystem::path exr_path(const std::filesystem::path& prefix, int index);
 
-// Writes the three files, in 16 bits with `half` and in 32 otherwise; each whole or not at all, and
-// none if the table cannot be written. The same table gives the same bytes. Skipped and failed
+// Writes the three files, in 16 bits with `half` and in 32 otherwise; they take their places once
+// all are written. The same table gives the same bytes. Skipped and failed
 // entries take the values of nearest_fitted (export/nearest.h). Throws InputError for a table that
 // is not consistent or has no entry with values, for a fitted entry whose amplitude or Fresnel term
 // is not finite, and for a value beyond the 16-bit range (65504); IoError where the system refuses.
 void write_exr(const Table& table, const std::filesystem::path& prefix, bool half);
+
+// The same as three of several files, which all take their places with files.commit().
+void add_exr(platform::FileSet& files, const Table& table, const std::filesystem::path& prefix,
+             bool half);
 
 // What the three files hold: every entry counts as fitted, its loss is NaN, its steps 0; brdf,
 // seed, config, generator and created are empty. Throws IoError for a file that cannot be opened;

@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/write_file.h"
 #include "export/consistency.h"
 #include "export/exr.h"
 #include "export/exr_layout.h"
@@ -128,7 +129,7 @@ fs::path exr_path(const fs::path& prefix, int index) {
   return fs::path(fmt::format("{}.{}.exr", prefix.string(), index));
 }
 
-void write_exr(const Table& table, const fs::path& prefix, bool half) {
+void add_exr(platform::FileSet& set, const Table& table, const fs::path& prefix, bool half) {
   require_consistent(table, exr_path(prefix, 0));
   const std::array<Pixels, files> pixels = gather_pixels(table, prefix, half);
   std::array<std::string, files> encoded;
@@ -140,7 +141,13 @@ void write_exr(const Table& table, const fs::path& prefix, bool half) {
                               on_one_line(error.what())));
   }
   for (std::size_t file = 0; file < encoded.size(); ++file)
-    write_file(exr_path(prefix, static_cast<int>(file)), encoded[file]);
+    add_file(set, exr_path(prefix, static_cast<int>(file)), encoded[file]);
+}
+
+void write_exr(const Table& table, const fs::path& prefix, bool half) {
+  platform::FileSet set;
+  add_exr(set, table, prefix, half);
+  set.commit();
 }
 
 }  // namespace ltc

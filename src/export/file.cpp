@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/platform.h"
 
 namespace ltc {
 namespace {
@@ -38,18 +37,6 @@ std::uintmax_t require_readable(const fs::path& path) {
   if (error)
     throw_unreadable(path, error.message());
   return size;
-}
-
-void write_file(const fs::path& path, std::string_view bytes) {
-  platform::write_atomically(path, [&](const fs::path& temporary) {
-    errno = 0;
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file)
-      throw IoError(fmt::format("cannot write {}: {}", path.string(),
-                                errno ? std::strerror(errno) : "the system refused"));
-  });
 }
 
 std::string on_one_line(std::string text) {

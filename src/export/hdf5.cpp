@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/platform.h"
+#include "core/write_file.h"
 #include "export/consistency.h"
 #include "export/hdf5_file.h"
 
@@ -149,15 +149,19 @@ void read_entries(const Hdf5Input& file, const fs::path& path, Table& table) {
 
 }  // namespace
 
-void write_hdf5(const Table& table, const fs::path& path) {
+void add_hdf5(platform::FileSet& files, const Table& table, const fs::path& path) {
   require_consistent(table, path);
-  platform::write_atomically(path, [&](const fs::path& temporary) {
-    Hdf5Output file(temporary, path.string());
-    write_attributes(file, table);
-    write_axes(file, table.grid);
-    write_entries(file, table);
-    file.finish();
-  });
+  Hdf5Output file(path.string());
+  write_attributes(file, table);
+  write_axes(file, table.grid);
+  write_entries(file, table);
+  add_file(files, path, file.finish());
+}
+
+void write_hdf5(const Table& table, const fs::path& path) {
+  platform::FileSet files;
+  add_hdf5(files, table, path);
+  files.commit();
 }
 
 Table read_hdf5(const fs::path& path) {

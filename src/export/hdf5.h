@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "core/platform.h"
 #include "table/table.h"
 
 namespace ltc {
@@ -16,6 +17,9 @@ inline constexpr int table_format_version = 1;
 // Writes the table whole or not at all; the same table gives the same bytes. Throws InputError for
 // a table that is not consistent (export/consistency.h), IoError where the system refuses.
 void write_hdf5(const Table& table, const std::filesystem::path& path);
+
+// The same as one of several files, which all take their places with files.commit().
+void add_hdf5(platform::FileSet& files, const Table& table, const std::filesystem::path& path);
 
 // Throws IoError for a file that cannot be opened; InputError, naming file and fault, for one that
 // is no table of this format version, is damaged, or whose parts disagree.

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <new>
 #include <numeric>
+#include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -120,6 +122,38 @@ std::string text_of_fixed_length(hid_t attribute, hid_t type, bool& ok) {
   return text;
 }
 
+// The library's memory for a file is this string, which outlives the file: the library has a
+// function that copies the bytes of an open file, but in many versions with a wrong checksum.
+H5FD_file_image_callbacks_t image_callbacks(std::string& image) {
+  H5FD_file_image_callbacks_t callbacks{};
+  callbacks.image_realloc = [](void*, std::size_t size, H5FD_file_image_op_t,
+                               void* user) noexcept -> void* {
+    try {
+      std::string& bytes = *static_cast<std::string*>(user);
+      bytes.resize(size);
+      return bytes.data();
+    } catch (const std::bad_alloc&) {
+      return nullptr;
+    }
+  };
+  callbacks.image_free = [](void*, H5FD_file_image_op_t, void*) noexcept -> herr_t { return 0; };
+  callbacks.udata_copy = [](void* user) noexcept { return user; };
+  callbacks.udata_free = [](void*) noexcept -> herr_t { return 0; };
+  callbacks.udata = &image;
+  return callbacks;
+}
+
+// Where a file of superblock version 2 or 3 ends (HDF5 File Format Specification 3.0, II.A); the
+// library takes memory in larger pieces. 0 if the image has no superblock.
+std::size_t end_of_file_address(std::string_view image) {
+  constexpr std::size_t offset = 28, bytes = 8;
+  std::size_t address = 0;
+  if (image.size() >= offset + bytes)
+    for (std::size_t i = bytes; i-- > 0;)
+      address = address << 8 | static_cast<unsigned char>(image[offset + i]);
+  return address;
+}
+
 }  // namespace
 
 Hdf5Input::Hdf5Input(const std::filesystem::path& path) : name_(path.string()) {
@@ -228,16 +262,20 @@ std::vector<T> Hdf5Input::values(const std::string& dataset,
   return values;
 }
 
-Hdf5Output::Hdf5Output(const std::filesystem::path& path, std::string shown_as)
-    : name_(std::move(shown_as)) {
+Hdf5Output::Hdf5Output(std::string shown_as)
+    : name_(std::move(shown_as)), image_(std::make_unique<std::string>()) {
   keep_library_errors_off_the_terminal();
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_file_locking(access.id(), false, true);
+  constexpr std::size_t increment = std::size_t{1} << 20;  // that memory is taken in
+  constexpr bool on_disk_too = false;
+  H5Pset_fapl_core(access.id(), increment, on_disk_too);
+  H5FD_file_image_callbacks_t callbacks = image_callbacks(*image_);
+  H5Pset_file_image_callbacks(access.id(), &callbacks);
   // The format of HDF5 1.8, which every reader of today knows: its metadata carry checksums.
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  file_ = checked({H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose},
+  file_ = checked({H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose},
                   "the file cannot be created");
 }
 
@@ -303,9 +341,12 @@ void Hdf5Output::values(const std::string& dataset, const std::vector<std::size_
       "dataset " + dataset);
 }
 
-void Hdf5Output::finish() {
-  check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0, "the last bytes were refused");
+std::string Hdf5Output::finish() {
   check(file_.close(), "the file cannot be closed");
+  const std::size_t size = end_of_file_address(*image_);
+  check(size > 0 && size <= image_->size(), "the library left no file");
+  image_->resize(size);
+  return std::move(*image_);
 }
 
 template std::vector<float> Hdf5Input::values(const std::string&,
@@ -316,6 +357,8 @@ template std::vector<std::uint8_t> Hdf5Input::values(const std::string&,
                                                      const std::vector<std::size_t>&) const;
 template std::vector<std::uint16_t> Hdf5Input::values(const std::string&,
                                                       const std::vector<std::size_t>&) const;
+template std::vector<std::int32_t> Hdf5Input::values(const std::string&,
+                                                     const std::vector<std::size_t>&) const;
 template void Hdf5Output::number(const std::string&, const std::string&, double);
 template void Hdf5Output::number(const std::string&, const std::string&, std::int32_t);
 template void Hdf5Output::number(const std::string&, const std::string&, std::uint64_t);
@@ -327,5 +370,7 @@ template void Hdf5Output::values(const std::string&, const std::vector<std::size
                                  std::span<const std::uint8_t>);
 template void Hdf5Output::values(const std::string&, const std::vector<std::size_t>&,
                                  std::span<const std::uint16_t>);
+template void Hdf5Output::values(const std::string&, const std::vector<std::size_t>&,
+                                 std::span<const std::int32_t>);
 
 }  // namespace ltc

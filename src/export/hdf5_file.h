@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -55,7 +56,8 @@ class Hdf5Input {
   std::int64_t integer(const std::string& object, const std::string& attribute) const;
 
   std::vector<std::size_t> shape(const std::string& dataset) const;
-  // All values in C order. T: float, double, std::uint8_t, std::uint16_t, exactly the file's.
+  // All values in C order. T: float, double, std::uint8_t, std::uint16_t, std::int32_t, exactly the
+  // file's.
   template <class T>
   std::vector<T> values(const std::string& dataset, const std::vector<std::size_t>& shape) const;
 
@@ -70,30 +72,31 @@ class Hdf5Input {
   Hdf5Handle file_;
 };
 
-// Writes a new file; the same calls give the same bytes, for no time is recorded. Throws IoError
-// naming `shown_as`.
+// Makes the bytes of a new file; the same calls give the same bytes, for no time is recorded. In
+// memory: what a full disk refuses is then one write like any other, whereas the library, once it
+// could not write, neither says why nor can be closed in order. Throws IoError naming `shown_as`.
 class Hdf5Output {
  public:
-  // `path` is created or replaced.
-  Hdf5Output(const std::filesystem::path& path, std::string shown_as);
+  explicit Hdf5Output(std::string shown_as);
 
   void text(const std::string& object, const std::string& attribute, const std::string& value);
   // T: double, std::int32_t, std::uint64_t.
   template <class T>
   void number(const std::string& object, const std::string& attribute, T value);
   void group(const std::string& name);
-  // T: float, double, std::uint8_t, std::uint16_t; as many values as the shape says.
+  // T: float, double, std::uint8_t, std::uint16_t, std::int32_t; as many values as the shape says.
   template <class T>
   void values(const std::string& dataset, const std::vector<std::size_t>& shape,
               std::span<const T> values);
-  // Must be called last: only then is it known that all was written.
-  void finish();
+  // The bytes of the file; must be called last.
+  std::string finish();
 
  private:
   void check(bool ok, const std::string& what) const;
   Hdf5Handle checked(Hdf5Handle handle, const std::string& what) const;
 
   std::string name_;
+  std::unique_ptr<std::string> image_;  // the library writes to it as long as the file is open
   Hdf5Handle file_;
 };
 

@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/write_file.h"
 #include "export/consistency.h"
 #include "export/file.h"
 
@@ -148,7 +149,7 @@ bool npy_can_hold(const Grid& grid) {
   return grid == Grid::paper(grid.shape());
 }
 
-void write_npy(const Table& table, const fs::path& path) {
+void add_npy(platform::FileSet& files, const Table& table, const fs::path& path) {
   require_consistent(table, path);
   if (!npy_can_hold(table.grid))
     throw InputError(
@@ -161,7 +162,13 @@ void write_npy(const Table& table, const fs::path& path) {
       matrices.set_stored(i, table.matrix_at(i));
   const std::string_view values(reinterpret_cast<const char*>(matrices.stored.data()),
                                 matrices.stored.size() * sizeof(float));
-  write_file(path, make_header(table.grid).append(values));
+  add_file(files, path, make_header(table.grid).append(values));
+}
+
+void write_npy(const Table& table, const fs::path& path) {
+  platform::FileSet files;
+  add_npy(files, table, path);
+  files.commit();
 }
 
 Table read_npy(const fs::path& path) {

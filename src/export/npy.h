@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "core/platform.h"
 #include "table/table.h"
 
 namespace ltc {
@@ -18,6 +19,9 @@ bool npy_can_hold(const Grid& grid);
 // same bytes. Throws InputError for a grid that npy_can_hold refuses or a table that is not
 // consistent, IoError where the system refuses.
 void write_npy(const Table& table, const std::filesystem::path& path);
+
+// The same as one of several files, which all take their places with files.commit().
+void add_npy(platform::FileSet& files, const Table& table, const std::filesystem::path& path);
 
 // The table of such an array: the paper's axes, storage `matrix`. Amplitude, Fresnel term and loss
 // are NaN, steps 0; an entry of nine NaNs counts as skipped, every other as fitted. Throws IoError

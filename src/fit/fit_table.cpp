@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "fit/fit_journal.h"
 #include "fit/lobe_frame.h"
 #include "table/symmetry.h"
 
@@ -29,6 +30,17 @@ void copy_by_symmetry(const std::vector<PlannedEntry>& plan, std::vector<FittedE
     entries[flat] = {turned(source.matrix, plan[flat].turn_radians), source.loss, 0,
                      has_values(source.status) ? Status::copied : source.status};
   }
+}
+
+// Takes the results that the journal knows; what is left to be fitted.
+std::vector<std::size_t> recall_known(const FitJournal* journal, int round,
+                                      const std::vector<std::size_t>& to_fit,
+                                      std::vector<FittedEntry>& results) {
+  std::vector<std::size_t> unknown;
+  for (const std::size_t flat : to_fit)
+    if (!journal || !journal->recall(round, flat, results[flat]))
+      unknown.push_back(flat);
+  return unknown;
 }
 
 // Steps of the watched entry go to its watch, those of the others nowhere.
@@ -107,7 +119,7 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
 
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
                                    const std::vector<bool>& needed, int threads, Progress* progress,
-                                   FitWatch* watch) {
+                                   FitWatch* watch, FitJournal* journal) {
   const std::unique_ptr<Solver> solver = make_solver(settings);
   const std::vector<PlannedEntry> whole_plan = plan_by_symmetry(grid);
   const std::vector<PlannedEntry> plan = plan_by_symmetry(grid, needed);
@@ -117,14 +129,18 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
       to_fit.push_back(flat);
 
   std::vector<FittedEntry> entries(grid.size());
-  const auto fit_all = [&](std::string_view stage,
+  const auto fit_all = [&](std::string_view stage, int round,
                            const std::function<FitRequest(std::size_t)>& request,
                            std::vector<FittedEntry>& results) {
+    const std::vector<std::size_t> unknown = recall_known(journal, round, to_fit, results);
     parallel_for_each<FitWorkspacePointer>(
-        stage, to_fit.size(), threads, progress, make_fit_workspace,
+        stage, unknown.size(), threads, progress, make_fit_workspace,
         [&](std::size_t i, FitWorkspacePointer& workspace) {
-          const std::size_t flat = to_fit[i];
+          const std::size_t flat = unknown[i];
           fit_entry(*solver, request(flat), *workspace, trace_of(watch, flat), results[flat]);
+          // A stop ends a fit early, with whatever it has.
+          if (journal && !(progress && progress->stop_requested()))
+            journal->note(round, flat, results[flat]);
         });
     copy_by_symmetry(plan, results);
   };
@@ -137,7 +153,7 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
   };
   if (watch)
     watch->fits.assign(1, {});
-  fit_all("fit", plain_request, entries);
+  fit_all("fit", 0, plain_request, entries);
   // Nothing that samples could tell is better than a closed form.
   std::erase_if(to_fit, [&](std::size_t flat) { return entries[flat].status == Status::analytic; });
   const bool watching = watch && entries[watch->entry].status != Status::analytic;
@@ -147,7 +163,7 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
       watch->fits.push_back(
           {sweep, neighbour_starts(grid, watch->entry, entries).size(), {}, false});
     fit_all(
-        "sweep",
+        "sweep", sweep,
         [&](std::size_t flat) {
           FitRequest request = plain_request(flat);
           request.starts = neighbour_starts(grid, flat, entries);

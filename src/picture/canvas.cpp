@@ -4,18 +4,16 @@
 
 #include <cairo.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/platform.h"
+#include "core/write_file.h"
 #include "picture/text.h"
 
 namespace ltc::picture {
@@ -344,14 +342,7 @@ std::string Canvas::png_bytes() const {
 }
 
 void Canvas::write_png(const std::filesystem::path& path) const {
-  const std::string bytes = png_bytes();
-  platform::write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file)
-      throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
-  });
+  write_file(path, png_bytes());
 }
 
 }  // namespace ltc::picture

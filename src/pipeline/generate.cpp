@@ -88,7 +88,7 @@ Table generate_table(const Config& config, int threads, Progress* progress,
 }
 
 Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
-                     Progress* progress, GenerateReport* report) {
+                     Progress* progress, GenerateReport* report, FitJournal* journal) {
   GenerateReport unread;
   GenerateReport& result = report ? *report : unread;
   auto lap = std::chrono::steady_clock::now();
@@ -107,7 +107,8 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
 
   result.fits = representative_count(plan_by_symmetry(config.grid, needed));
   result.fits_of_whole_grid = representative_count(plan_by_symmetry(config.grid));
-  std::vector<FittedEntry> entries = fit_table(config.grid, config.fit, needed, threads, progress);
+  std::vector<FittedEntry> entries =
+      fit_table(config.grid, config.fit, needed, threads, progress, nullptr, journal);
   finish_stage("fit");
   align_all(entries, threads, progress);
   finish_stage("align");

@@ -22,11 +22,13 @@ struct GenerateReport {
   std::size_t largest_zeroed_entry = 0;  // where
 };
 
+class FitJournal;  // fit/fit_journal.h
+
 // Makes the entries of `config`'s table that are `needed` (one flag a node) with `threads` >= 1
 // OpenMP threads; the same bits for any number. Throws InputError for a config that cannot be met,
-// Interrupted when progress asked for a stop.
+// Interrupted when progress asked for a stop. `journal` as for fit_table.
 Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
-                     Progress* progress, GenerateReport* report);
+                     Progress* progress, GenerateReport* report, FitJournal* journal = nullptr);
 
 // The whole table.
 Table generate_table(const Config& config, int threads, Progress* progress, GenerateReport* report);

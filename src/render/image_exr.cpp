@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/write_file.h"
 #include "export/file.h"
 
 namespace ltc {

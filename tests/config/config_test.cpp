@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "core/error.h"
 #include "support/refusal.h"
@@ -334,6 +335,56 @@ TEST(ShippedConfigs, AllOfThemLoad) {
       ++count;
     }
   EXPECT_GE(count, 4);
+}
+
+// ---- What tells two configs apart ----
+
+TEST(ConfigDifference, IsTheFirstKeyThatMakesOtherFits) {
+  const Config config = load({"fit.seed=3", "fit.sgd.steps=7"});
+  EXPECT_FALSE(first_difference(config, to_toml(config), "x.h5"));
+  const auto found = first_difference(config, to_toml(load({"fit.sgd.steps=8"})), "x.h5");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->key, "fit.seed");  // not the steps, which come later
+  EXPECT_EQ(found->value, "3");
+  EXPECT_EQ(found->other, "1");
+}
+
+TEST(ConfigDifference, SeesEveryKeyButThoseOfTheOutput) {
+  const Config config = load({});
+  const std::string text = to_toml(config);
+  std::size_t seen = 0;
+  for (const ConfigKey& key : config_keys()) {
+    SCOPED_TRACE(key.name);
+    toml::table table = toml::parse(text);
+    // No key takes a list, so this is another value whatever the key takes.
+    const std::size_t dot = key.name.rfind('.');
+    table.at_path(key.name.substr(0, dot))
+        .as_table()
+        ->insert_or_assign(key.name.substr(dot + 1), toml::array{});
+    std::ostringstream changed;
+    changed << table;
+    const auto found = first_difference(config, changed.str(), "x.h5");
+    if (key.name.starts_with("output.")) {
+      EXPECT_FALSE(found);
+    } else {
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->key, key.name);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 40u);
+}
+
+TEST(ConfigDifference, AKeyThatIsMissingDiffers) {
+  const auto found = first_difference(load({}), "[fit]\nseed = 1\n", "x.h5");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->other, "");
+}
+
+TEST(ConfigDifference, RefusesWhatIsNoToml) {
+  test::expect_one_line(
+      message_of<InputError>([] { first_difference(Config{}, "[fit\n", "x.h5"); }),
+      {"x.h5:1", "not TOML"});
 }
 
 }  // namespace

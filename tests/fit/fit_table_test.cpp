@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <cstring>
 #include <set>
+
+#include "fit/same_fits.h"
 
 namespace ltc {
 namespace {
+
+using test::same_bits;
 
 FitSettings quick_settings() {
   FitSettings settings;
@@ -19,17 +22,6 @@ FitSettings quick_settings() {
   settings.gauss_newton.coarse_samples = 128;
   settings.gauss_newton.neighbour_sweeps = 0;
   return settings;
-}
-
-bool same_bits(const std::vector<FittedEntry>& a, const std::vector<FittedEntry>& b) {
-  if (a.size() != b.size())
-    return false;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (std::memcmp(a[i].matrix.data(), b[i].matrix.data(), sizeof(double) * 9) != 0 ||
-        std::memcmp(&a[i].loss, &b[i].loss, sizeof(double)) != 0 || a[i].steps != b[i].steps ||
-        a[i].status != b[i].status)
-      return false;
-  return true;
 }
 
 class Counter final : public Progress {

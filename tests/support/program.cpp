@@ -71,17 +71,23 @@ bool RunningProgram::ended() {
   return reaped_;
 }
 
-bool RunningProgram::wait_for_error_text(std::string_view text, std::chrono::seconds limit) {
+bool RunningProgram::wait_until(const std::function<bool()>& condition,
+                                std::chrono::seconds limit) {
   const Clock::time_point deadline = Clock::now() + limit;
   while (Clock::now() < deadline) {
     const bool last_look = ended();
-    if (read_file(outputs_ / "err").find(text) != std::string::npos)
+    if (condition())
       return !last_look;
     if (last_look)
       return false;
     std::this_thread::sleep_for(poll_interval);
   }
   return false;
+}
+
+bool RunningProgram::wait_for_error_text(std::string_view text, std::chrono::seconds limit) {
+  return wait_until([&] { return read_file(outputs_ / "err").find(text) != std::string::npos; },
+                    limit);
 }
 
 void RunningProgram::send_signal(int signal) {

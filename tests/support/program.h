@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,9 @@ class RunningProgram {
   ~RunningProgram();
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
+
+  // Waits until `condition` holds; false if the program ended or `limit` passed first.
+  bool wait_until(const std::function<bool()>& condition, std::chrono::seconds limit);
 
   // Waits until standard error contains `text`; false if the program ended or `limit` passed first.
   bool wait_for_error_text(std::string_view text, std::chrono::seconds limit);

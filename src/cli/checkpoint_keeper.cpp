@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/checkpoint_keeper.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+#include "export/checkpoint.h"
+#include "fit/fit_table.h"
+
+namespace ltc::cli {
+
+namespace fs = std::filesystem;
+
+CheckpointKeeper::CheckpointKeeper(const CheckpointTask& task, FitJournal& journal,
+                                   Progress& progress)
+    : task_(task), journal_(journal), progress_(progress), written_count_(journal.count()) {
+  if (task_.seconds > 0)
+    writer_ = std::thread([this] { write_until_closed(); });
+}
+
+CheckpointKeeper::~CheckpointKeeper() {
+  end_thread();
+}
+
+void CheckpointKeeper::guard(const std::function<void()>& work) {
+  try {
+    guard_stops(work);
+  } catch (const InputError& error) {
+    save_if_possible();
+    throw InputError(with_way_on(error.what()));
+  } catch (const IoError& error) {
+    save_if_possible();
+    throw IoError(with_way_on(error.what()));
+  }
+}
+
+void CheckpointKeeper::save_if_possible() {
+  end_thread();
+  try {
+    if (exists())
+      write_if_new();
+  } catch (const IoError&) {
+    // The one before stands, and what the run ended with is the message to give.
+  }
+}
+
+void CheckpointKeeper::guard_stops(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Interrupted&) {
+    close();  // throws if the stop was asked for here
+    if (!exists())
+      throw;
+    write_if_new();
+    throw Interrupted(with_way_on("interrupted"));
+  }
+}
+
+std::string CheckpointKeeper::with_way_on(const std::string& message) const {
+  return exists() ? fmt::format("{}; --resume goes on from {}", message, task_.file.string())
+                  : message;
+}
+
+void CheckpointKeeper::close() {
+  end_thread();
+  if (failure_)
+    std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void CheckpointKeeper::end_thread() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
+  wake_.notify_all();
+  if (writer_.joinable())
+    writer_.join();
+}
+
+void CheckpointKeeper::write_until_closed() {
+  const std::chrono::duration<double> interval(task_.seconds);
+  std::unique_lock lock(mutex_);
+  try {
+    while (!wake_.wait_for(lock, interval, [this] { return closed_; }))
+      write_if_new();
+  } catch (...) {
+    failure_ = std::current_exception();
+    progress_.request_stop();
+  }
+}
+
+void CheckpointKeeper::write_if_new() {
+  const std::size_t count = journal_.count();
+  if (count == written_count_)
+    return;
+  write_checkpoint(task_.config, task_.needed, journal_.finished(), task_.file);
+  written_count_ = count;
+}
+
+bool CheckpointKeeper::exists() const {
+  std::error_code ignored;
+  return fs::exists(task_.file, ignored);
+}
+
+void CheckpointKeeper::remove() {
+  std::error_code error;
+  fs::remove(task_.file, error);
+  if (error)
+    throw IoError(
+        fmt::format("cannot remove checkpoint {}: {}", task_.file.string(), error.message()));
+}
+
+std::unique_ptr<FitJournal> open_journal(const CheckpointTask& task, bool resume) {
+  std::error_code ignored;
+  const bool exists = fs::exists(task.file, ignored);
+  if (exists && !resume)
+    throw InputError(
+        fmt::format("{} holds the fits of a run that did not end; go on with --resume, "
+                    "or remove it to begin anew",
+                    task.file.string()));
+  if (exists)
+    return std::make_unique<FitJournal>(read_checkpoint(task.config, task.needed, task.file));
+  if (resume)
+    fmt::print(stderr, "ltcfit: no checkpoint {}; starting from the beginning\n",
+               task.file.string());
+  return std::make_unique<FitJournal>(task.config.grid.size(), sweep_count(task.config.fit));
+}
+
+}  // namespace ltc::cli

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "export/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+
+#include "core/error.h"
+#include "core/version.h"
+#include "core/write_file.h"
+#include "export/hdf5_file.h"
+
+namespace ltc {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string root = "/";
+
+constexpr const char* way_out = "remove it to begin anew";
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& what) {
+  throw InputError(fmt::format("checkpoint {}: {}", path.string(), what));
+}
+
+// The fits as the file has them: arrays over rounds and nodes.
+struct Arrays {
+  std::vector<double> matrix;  // row-major
+  std::vector<double> loss;
+  std::vector<std::int32_t> steps;
+  std::vector<std::uint8_t> status;
+};
+
+Arrays to_arrays(const FinishedFits& fits) {
+  Arrays arrays;
+  for (const std::vector<FittedEntry>& round : fits.rounds)
+    for (const FittedEntry& entry : round) {
+      for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+          arrays.matrix.push_back(entry.matrix(row, column));
+      arrays.loss.push_back(entry.loss);
+      arrays.steps.push_back(entry.steps);
+      arrays.status.push_back(static_cast<std::uint8_t>(entry.status));
+    }
+  return arrays;
+}
+
+// Throws InputError for an entry that no fit leaves behind.
+FittedEntry entry_of(const Arrays& arrays, std::size_t i, const fs::path& path) {
+  FittedEntry entry;
+  for (std::size_t k = 0; k < 9; ++k)
+    entry.matrix(static_cast<int>(k / 3), static_cast<int>(k % 3)) = arrays.matrix[9 * i + k];
+  entry.loss = arrays.loss[i];
+  entry.steps = arrays.steps[i];
+  entry.status = static_cast<Status>(arrays.status[i]);
+  if (entry.status > Status::failed || entry.status == Status::copied)
+    refuse(path, fmt::format("dataset fit/status holds {}; allowed: 0, 1, 3 and 4; {}",
+                             arrays.status[i], way_out));
+  if (entry.steps < 0)
+    refuse(path, fmt::format("dataset fit/steps holds {}; allowed: 0 and more; {}", entry.steps,
+                             way_out));
+  if (has_values(entry.status) && !entry.matrix.allFinite())
+    refuse(path,
+           fmt::format("dataset fit/matrix is not finite where a fit is finished; {}", way_out));
+  return entry;
+}
+
+std::vector<std::uint8_t> flags_of(const std::vector<bool>& needed) {
+  return {needed.begin(), needed.end()};
+}
+
+void require_format(const Hdf5Input& file, const fs::path& path) {
+  if (const std::string format = file.text(root, "format"); format != checkpoint_format)
+    refuse(path, fmt::format("attribute format is \"{}\"; allowed: \"{}\"; {}", format,
+                             checkpoint_format, way_out));
+  if (const std::int64_t version = file.integer(root, "format_version");
+      version != checkpoint_format_version)
+    refuse(path, fmt::format("attribute format_version is {}; allowed: {}; {}", version,
+                             checkpoint_format_version, way_out));
+}
+
+// Fits of another program, config or set of entries would make a table that no run makes.
+void require_same_run(const Hdf5Input& file, const Config& config, const std::vector<bool>& needed,
+                      const fs::path& path) {
+  if (const std::string made_by = file.text(root, "generator"); made_by != generator())
+    refuse(path, fmt::format("made by {}, this is {}; go on with that, or {}", made_by, generator(),
+                             way_out));
+  if (const auto difference = first_difference(config, file.text(root, "config"), path))
+    refuse(path,
+           fmt::format("made with {} = {}, now it is {}; go on with its value, or {}",
+                       difference->key, difference->other.empty() ? "nothing" : difference->other,
+                       difference->value, way_out));
+  if (file.values<std::uint8_t>("needed", {needed.size()}) != flags_of(needed))
+    refuse(path, fmt::format("made for other entries; go on with its --scene and --extend, or {}",
+                             way_out));
+}
+
+}  // namespace
+
+void write_checkpoint(const Config& config, const std::vector<bool>& needed,
+                      const FinishedFits& fits, const fs::path& path) {
+  const Arrays arrays = to_arrays(fits);
+  const std::size_t rounds = fits.rounds.size(), nodes = needed.size();
+  Hdf5Output file(path.string());
+  file.text(root, "format", checkpoint_format);
+  file.number(root, "format_version", std::int32_t{checkpoint_format_version});
+  file.text(root, "generator", generator());
+  file.text(root, "config", to_toml(config));
+  file.values<std::uint8_t>("needed", {nodes}, flags_of(needed));
+  file.group("fit");
+  file.values<double>("fit/matrix", {rounds, nodes, 3, 3}, arrays.matrix);
+  file.values<double>("fit/loss", {rounds, nodes}, arrays.loss);
+  file.values<std::int32_t>("fit/steps", {rounds, nodes}, arrays.steps);
+  file.values<std::uint8_t>("fit/status", {rounds, nodes}, arrays.status);
+  write_file(path, file.finish());
+}
+
+FinishedFits read_checkpoint(const Config& config, const std::vector<bool>& needed,
+                             const fs::path& path) {
+  const Hdf5Input file(path);
+  require_format(file, path);
+  require_same_run(file, config, needed, path);
+  const std::size_t rounds = 1 + static_cast<std::size_t>(sweep_count(config.fit));
+  const std::size_t nodes = needed.size();
+  const Arrays arrays{file.values<double>("fit/matrix", {rounds, nodes, 3, 3}),
+                      file.values<double>("fit/loss", {rounds, nodes}),
+                      file.values<std::int32_t>("fit/steps", {rounds, nodes}),
+                      file.values<std::uint8_t>("fit/status", {rounds, nodes})};
+  FinishedFits fits;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    std::vector<FittedEntry>& entries = fits.rounds.emplace_back();
+    for (std::size_t flat = 0; flat < nodes; ++flat)
+      entries.push_back(entry_of(arrays, round * nodes + flat, path));
+  }
+  return fits;
+}
+
+}  // namespace ltc

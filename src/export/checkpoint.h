@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The file that keeps the finished fits of a run that is not: docs/files.md says what lies where.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "config/config.h"
+#include "fit/fit_journal.h"
+
+namespace ltc {
+
+// The `format` and `format_version` attributes of checkpoints.
+inline constexpr const char* checkpoint_format = "ltc-checkpoint";
+inline constexpr int checkpoint_format_version = 1;
+
+// Writes the file whole or not at all, bit exact. `needed` says which entries the run makes. Throws
+// IoError where the system refuses.
+void write_checkpoint(const Config& config, const std::vector<bool>& needed,
+                      const FinishedFits& fits, const std::filesystem::path& path);
+
+// The fits that the file keeps, for a run of `config` that makes the entries `needed`. Throws
+// IoError for a file that cannot be opened; InputError, naming the file, for one that is no
+// checkpoint, is damaged, or belongs to another version of the program, to a config in which
+// another key than those of [output] differs (it is named), or to other needed entries.
+FinishedFits read_checkpoint(const Config& config, const std::vector<bool>& needed,
+                             const std::filesystem::path& path);
+
+}  // namespace ltc

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// Fitted entries compared bit for bit.
+#pragma once
+
+#include <cstring>
+#include <vector>
+
+#include "fit/fit_table.h"
+
+namespace ltc::test {
+
+inline bool same_bits(const FittedEntry& a, const FittedEntry& b) {
+  return std::memcmp(a.matrix.data(), b.matrix.data(), sizeof(double) * 9) == 0 &&
+         std::memcmp(&a.loss, &b.loss, sizeof(double)) == 0 && a.steps == b.steps &&
+         a.status == b.status;
+}
+
+inline bool same_bits(const std::vector<FittedEntry>& a, const std::vector<FittedEntry>& b) {
+  if (a.size() != b.size())
+    return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!same_bits(a[i], b[i]))
+      return false;
+  return true;
+}
+
+}  // namespace ltc::test
