@@ -7,8 +7,6 @@
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfStringAttribute.h>
-#include <ImfTestFile.h>
-#include <ImfVersion.h>
 
 #include <cmath>
 #include <cstdint>
@@ -21,6 +19,7 @@
 #include "core/error.h"
 #include "export/consistency.h"
 #include "export/exr.h"
+#include "export/exr_header.h"
 #include "export/exr_layout.h"
 #include "export/file.h"
 
@@ -79,13 +78,6 @@ Grid read_grid(const Imf::Header& header, const fs::path& path) {
   return grid;
 }
 
-void require_layout(const Imf::InputFile& file, const fs::path& path) {
-  if (!Imf::isTiled(file.version()) && !Imf::isMultiPart(file.version()) &&
-      !Imf::isNonImage(file.version()))
-    return;
-  refuse(path, "not a single-part scan-line image");
-}
-
 void require_channels(const Imf::Header& header, int index, const fs::path& path) {
   const auto expected = channel_contents[static_cast<std::size_t>(index)];
   const auto found = attribute<Imf::StringAttribute>(header, "ltc:channels", path);
@@ -125,7 +117,6 @@ void require_room_for_pixels(const Grid& grid, std::uintmax_t file_bytes, const 
 Table read_header(const Imf::InputFile& file, int index, std::uintmax_t file_bytes,
                   const fs::path& path) {
   const Imf::Header& header = file.header();
-  require_layout(file, path);
   if (const int found = attribute<Imf::IntAttribute>(header, "ltc:format_version", path);
       found != version)
     refuse(path, fmt::format("ltc:format_version is {}; allowed: {}", found, version));
@@ -176,6 +167,8 @@ void take_pixels(Table& table, int index, const std::vector<float>& pixels, cons
 // Reads file `index` into the table; the first one makes it.
 void read_file_into(Table& table, int index, const fs::path& path) {
   const std::uintmax_t file_bytes = require_readable(path);
+  if (const std::string fault = exr_header_fault(path); !fault.empty())
+    refuse(path, fault);
   const BoundedImageSize bound;
   try {
     constexpr int no_threads = 0;

@@ -24,6 +24,8 @@ using namespace ltc::fuzz;
 constexpr std::string_view fuzzed = LTCFIT_FUZZED_READER;
 
 const Reader& fuzzed_reader() {
+  if (fuzzed == "hdf5")  // of what happens in the guard's process, a fuzzer learns nothing
+    return unguarded_hdf5_reader();
   return *std::find_if(readers().begin(), readers().end(),
                        [](const Reader& reader) { return reader.name == fuzzed; });
 }
