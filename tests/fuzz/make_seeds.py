@@ -102,8 +102,6 @@ HDF5_LIES = {
     "axis_of_2_to_60": huge_axis,
     "alpha_min_is_nan": lambda f: f.attrs.__setitem__("alpha_min", np.float64("nan")),
     "seed_is_a_list": lambda f: f.attrs.__setitem__("seed", np.zeros(16, "u8")),
-    "format_is_an_enum": lambda f: f.attrs.create(
-        "format", 0, dtype=h5py.enum_dtype({"ltc-table": 0}, basetype="i4")),
 }
 
 

@@ -28,7 +28,7 @@ int overflow() {
 }
 
 int leak() {
-  static volatile char* forgotten = nullptr;
+  static char* volatile forgotten = nullptr;
   forgotten = new char[100];
   forgotten = nullptr;
   return 0;
