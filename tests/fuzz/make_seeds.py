@@ -201,7 +201,7 @@ def config_seeds(source, folder):
     lies = {
         "default": (source / "config/default.toml").read_text(),
         "sections": "[table]\nstorage = 'mirror-frame'\n[table.alpha]\nnodes = 4\nfirst = 0.1\n",
-        "inline": "table = { alpha = { nodes = 3 }, brdf = \"ggx\" }\nfit.seed = 1e0\n",
+        "inline": "table = { alpha = { nodes = 3 }, brdf = \"ggx\" }\nfit.seed = 1\n",
         "2_to_60": f"[table.alpha]\nnodes = {1 << 60}\n",
         "2_to_64": f"[table.alpha]\nnodes = {1 << 64}\n",
         "negative": "[table.alpha]\nnodes = -1\n",
