@@ -54,13 +54,13 @@ install_packages() {
     fail "apt-get could not install: ${missing[*]}"
 }
 
-# Configures and builds a preset; quiet unless it fails.
+# Configures and builds a preset, or only the targets named after it; quiet unless it fails.
 build_preset() {
-  local preset=$1 log
+  local preset=$1 targets=("${@:2}") log
   log=$(mktemp)
   say "building the $preset preset"
   if ! cmake --preset "$preset" >"$log" 2>&1 ||
-    ! cmake --build --preset "$preset" >>"$log" 2>&1; then
+    ! cmake --build --preset "$preset" "${targets[@]/#/--target=}" >>"$log" 2>&1; then
     cat "$log" >&2
     rm -f "$log"
     fail "could not build the $preset preset"

@@ -10,7 +10,7 @@
 #include "cli/progress.h"
 #include "cli/validate_report.h"
 #include "core/error.h"
-#include "export/file.h"
+#include "core/write_file.h"
 #include "export/reader.h"
 #include "validate/validate_settings.h"
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,19 @@ void require_writable_folder(const std::filesystem::path& folder);
 // From now on an interrupt (Ctrl-C, SIGTERM) calls `handler`, which may only touch lock-free
 // atomics; a second one ends the process as it would have without the handler.
 void on_interrupt(void (*handler)());
+
+// What a piece of work may use up.
+struct WorkLimits {
+  std::size_t memory_bytes;  // beyond what this process has now
+  unsigned processor_seconds;
+};
+
+// The text that `work` returns, worked out in a copy of this process, which nothing that becomes of
+// the copy can harm. Nothing if the copy crashed, threw, or went beyond a limit; what it says on
+// standard output and standard error is thrown away. Not while other threads hold locks that `work`
+// takes. Throws IoError if the system refuses a process.
+std::optional<std::string> in_a_process_apart(const std::function<std::string()>& work,
+                                              const WorkLimits& limits);
 
 // Whether standard error is a terminal, and how many columns it has (80 where it does not say).
 bool standard_error_is_terminal();

@@ -7,10 +7,9 @@
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfStringAttribute.h>
-#include <ImfTestFile.h>
-#include <ImfVersion.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "core/error.h"
 #include "export/consistency.h"
 #include "export/exr.h"
+#include "export/exr_header.h"
 #include "export/exr_layout.h"
 #include "export/file.h"
 
@@ -78,13 +78,6 @@ Grid read_grid(const Imf::Header& header, const fs::path& path) {
   return grid;
 }
 
-void require_layout(const Imf::InputFile& file, const fs::path& path) {
-  if (!Imf::isTiled(file.version()) && !Imf::isMultiPart(file.version()) &&
-      !Imf::isNonImage(file.version()))
-    return;
-  refuse(path, "not a single-part scan-line image");
-}
-
 void require_channels(const Imf::Header& header, int index, const fs::path& path) {
   const auto expected = channel_contents[static_cast<std::size_t>(index)];
   const auto found = attribute<Imf::StringAttribute>(header, "ltc:channels", path);
@@ -111,16 +104,26 @@ void require_size(const Imf::Header& header, const Grid& grid, const fs::path& p
                              size.height));
 }
 
+// No compression that tables are written with makes 2,000 bytes of values out of one (deflate:
+// 1,032 at most): a small file that claims a large image is refused before memory is taken for it.
+void require_room_for_pixels(const Grid& grid, std::uintmax_t file_bytes, const fs::path& path) {
+  constexpr std::uintmax_t most_per_byte = 2000;
+  const std::uintmax_t pixel_bytes = channels_per_file * sizeof(float) * grid.size();
+  if (pixel_bytes > most_per_byte * file_bytes)
+    refuse(path, fmt::format("{} bytes long; too few for {} pixels", file_bytes, grid.size()));
+}
+
 // What the header says of the table, empty of values. Checks all of it against the layout.
-Table read_header(const Imf::InputFile& file, int index, const fs::path& path) {
+Table read_header(const Imf::InputFile& file, int index, std::uintmax_t file_bytes,
+                  const fs::path& path) {
   const Imf::Header& header = file.header();
-  require_layout(file, path);
   if (const int found = attribute<Imf::IntAttribute>(header, "ltc:format_version", path);
       found != version)
     refuse(path, fmt::format("ltc:format_version is {}; allowed: {}", found, version));
   require_channels(header, index, path);
   const Grid grid = read_grid(header, path);
   require_size(header, grid, path);
+  require_room_for_pixels(grid, file_bytes, path);
   const auto storage = attribute<Imf::StringAttribute>(header, "ltc:storage", path);
   return Table::empty(grid, storage_from_name(storage));
 }
@@ -163,12 +166,14 @@ void take_pixels(Table& table, int index, const std::vector<float>& pixels, cons
 
 // Reads file `index` into the table; the first one makes it.
 void read_file_into(Table& table, int index, const fs::path& path) {
-  require_readable(path);
+  const std::uintmax_t file_bytes = require_readable(path);
+  if (const std::string fault = exr_header_fault(path); !fault.empty())
+    refuse(path, fault);
   const BoundedImageSize bound;
   try {
     constexpr int no_threads = 0;
     Imf::InputFile file(path.c_str(), no_threads);
-    Table found = read_header(file, index, path);
+    Table found = read_header(file, index, file_bytes, path);
     if (index == 0)
       table = std::move(found);
     else if (found.grid != table.grid || found.storage != table.storage)

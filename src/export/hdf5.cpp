@@ -14,6 +14,7 @@
 #include "core/write_file.h"
 #include "export/consistency.h"
 #include "export/hdf5_file.h"
+#include "export/hdf5_guard.h"
 
 namespace ltc {
 namespace {
@@ -164,7 +165,7 @@ void write_hdf5(const Table& table, const fs::path& path) {
   files.commit();
 }
 
-Table read_hdf5(const fs::path& path) {
+Table read_hdf5_unguarded(const fs::path& path) {
   const Hdf5Input file(path);
   require_format(file, path);
   Table table;
@@ -173,6 +174,11 @@ Table read_hdf5(const fs::path& path) {
   read_entries(file, path, table);
   require_consistent(table, path);
   return table;
+}
+
+Table read_hdf5(const fs::path& path) {
+  require_harmless(path, [&path] { read_hdf5_unguarded(path); });
+  return read_hdf5_unguarded(path);
 }
 
 }  // namespace ltc

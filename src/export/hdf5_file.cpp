@@ -104,6 +104,38 @@ Hdf5Handle dataspace_of(const std::vector<std::size_t>& shape) {
   return {H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose};
 }
 
+// Whether every step of the path is a link into the same file. Links by name can form circles or
+// open any file of the system.
+bool linked_within_the_file(hid_t file, const std::string& object) {
+  for (std::size_t end = 0; end < object.size();) {
+    end = std::min(object.find('/', end + 1), object.size());
+    H5L_info_t link;
+    const std::string step = object.substr(0, end);
+    if (step != "/" &&
+        (H5Lget_info(file, step.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD))
+      return false;
+  }
+  return true;
+}
+
+// What is wrong with how a dataset of so many bytes lies in its file; empty if nothing is. Only
+// values that the file really holds, one after the other, are read: then no header can ask for more
+// memory than the file has bytes, name another file to read from, or bring in a filter.
+std::string storage_fault(hid_t dataset, std::size_t bytes, std::uintmax_t file_bytes) {
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  const H5D_layout_t layout = H5Pget_layout(creation.id());
+  if (layout != H5D_CONTIGUOUS && layout != H5D_COMPACT)
+    return "is stored in chunks or elsewhere; expected: contiguous (h5repack -l CONTI writes it "
+           "so)";
+  if (H5Pget_external_count(creation.id()) != 0)
+    return "lies in another file; expected: in this one";
+  const std::uintmax_t stored = H5Dget_storage_size(dataset);
+  if (stored != bytes || stored > file_bytes)
+    return fmt::format("has {} bytes in a file of {}; its shape asks for {}", stored, file_bytes,
+                       bytes);
+  return {};
+}
+
 std::string text_of_variable_length(hid_t attribute, hid_t type, bool& ok) {
   char* raw = nullptr;
   ok = H5Aread(attribute, type, static_cast<void*>(&raw)) >= 0;
@@ -158,7 +190,7 @@ std::size_t end_of_file_address(std::string_view image) {
 
 Hdf5Input::Hdf5Input(const std::filesystem::path& path) : name_(path.string()) {
   keep_library_errors_off_the_terminal();
-  require_readable(path);
+  bytes_ = require_readable(path);
   if (!global_heaps_are_sound(path))
     refuse("the texts of the file are damaged");
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -176,6 +208,8 @@ void Hdf5Input::refuse(const std::string& what) const {
 
 Hdf5Handle Hdf5Input::open_attribute(const std::string& object,
                                      const std::string& attribute) const {
+  if (!linked_within_the_file(file_.id(), object))
+    refuse(fmt::format("{} is missing, or no plain link", object));
   Hdf5Handle handle(
       H5Aopen_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
       H5Aclose);
@@ -227,6 +261,8 @@ std::int64_t Hdf5Input::integer(const std::string& object, const std::string& at
 }
 
 Hdf5Handle Hdf5Input::open_dataset(const std::string& dataset) const {
+  if (!linked_within_the_file(file_.id(), dataset))
+    refuse(fmt::format("dataset {} is missing, or no plain link", dataset));
   Hdf5Handle handle(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
   if (!handle.valid())
     refuse(fmt::format("dataset {} is missing", dataset));
@@ -256,6 +292,9 @@ std::vector<T> Hdf5Input::values(const std::string& dataset,
   if (found != expected)
     refuse(fmt::format("dataset {} has shape ({}); expected: ({})", dataset, fmt::join(found, ", "),
                        fmt::join(expected, ", ")));
+  if (const std::string fault = storage_fault(handle.id(), product(found) * sizeof(T), bytes_);
+      !fault.empty())
+    refuse(fmt::format("dataset {} {}", dataset, fault));
   std::vector<T> values(product(found));
   if (H5Dread(handle.id(), TypeOf<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     refuse(fmt::format("dataset {} cannot be read", dataset));

@@ -43,7 +43,8 @@ class Hdf5Handle {
 
 // Reads. An object is a path in the file ("/", "axis/alpha"). Throws IoError for a file that cannot
 // be opened, InputError naming file and object for one that is no HDF5 file, or for an object that
-// is missing, damaged, or of another type or shape than asked for.
+// is missing, damaged, or of another type or shape than asked for. Takes no more memory for an
+// object than the file has bytes, or 16 MiB for a text; opens no other file.
 class Hdf5Input {
  public:
   explicit Hdf5Input(const std::filesystem::path& path);
@@ -69,6 +70,7 @@ class Hdf5Input {
   [[noreturn]] void refuse(const std::string& what) const;
 
   std::string name_;
+  std::uintmax_t bytes_ = 0;
   Hdf5Handle file_;
 };
 

@@ -242,6 +242,23 @@ TEST(Hdf5, DamagedFilesAreRefusedByNameAndFault) {
   EXPECT_EQ(written, expected);
 }
 
+TEST(Hdf5, ValuesThatTheFileDoesNotHoldItselfAreRefused) {
+  const std::map<std::string, std::string> faults = {
+      {"virtual_matrix", "matrix is stored in chunks or elsewhere"},
+      {"chunked", "matrix is stored in chunks or elsewhere"},
+      {"other_files_bytes", "amplitude lies in another file"},
+      {"never_written", "matrix has 0 bytes in a file of"},
+      {"axes_of_64_never_written", "matrix has 0 bytes in a file of"},
+      {"link_to_itself", "fresnel is missing, or no plain link"},
+      {"link_to_another_file", "fresnel is missing, or no plain link"},
+  };
+  for (const auto& [name, fault] : faults) {
+    const std::filesystem::path path = LTCFIT_SOURCE_DIR "/tests/fuzz/seeds/hdf5/" + name + ".h5";
+    const std::string message = refusal(path);
+    EXPECT_NE(message.find(fault), std::string::npos) << name << ": \"" << message << '"';
+  }
+}
+
 TEST(Hdf5, WhatIsNoHdf5FileIsRefusedAndNothingIsPrinted) {
   const TemporaryFolder folder;
   ::testing::internal::CaptureStderr();

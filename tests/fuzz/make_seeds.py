@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the ltcfit authors
+"""Writes the seeds that the fuzzers start from: make_seeds.py LTCFIT FOLDER
+
+LTCFIT is the program, FOLDER gets a folder for each reader. A seed is a good small file, or one with
+a single lie of the kind that readers fall for: sizes of 2^60, negative sizes, NaN where a number is
+expected, links in a circle, values nested deep. /usr/bin/python3 has h5py on Debian.
+"""
+import json
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+AXES = ("alpha", "lambda", "theta", "phi")
+
+
+def made_table(ltcfit, folder):
+    """A table of 2x2x2x2 in all formats."""
+    nodes = [f"--set=table.{axis}.nodes=2" for axis in AXES]
+    subprocess.run([ltcfit, "generate", *nodes, "-o", folder], check=True, capture_output=True)
+
+
+# ---- HDF5 ----
+
+def short_copy(source, path, libver, **matrix_options):
+    """The table with a short config, in a format of HDF5: the earliest has no checksums."""
+    with h5py.File(source) as table, h5py.File(path, "w", libver=libver) as copy:
+        copy.attrs.update(table.attrs)
+        copy.attrs["config"] = "short"
+        for name in ("matrix", "amplitude", "fresnel", "sw_loss", "status", "iterations"):
+            options = matrix_options if name == "matrix" else {}
+            copy.create_dataset(name, data=table[name][()], **options)
+        for axis in AXES:
+            copy[f"axis/{axis}"] = table[f"axis/{axis}"][()]
+            copy[f"axis/{axis}"].attrs.update(table[f"axis/{axis}"].attrs)
+
+
+def virtual_matrix(file):
+    del file["matrix"]
+    layout = h5py.VirtualLayout(shape=(2, 2, 2, 2, 3, 3), dtype="f4")
+    layout[...] = h5py.VirtualSource("/etc/passwd", "matrix", shape=(2, 2, 2, 2, 3, 3))
+    file.create_virtual_dataset("matrix", layout)
+
+
+def other_files_bytes(file):
+    del file["amplitude"]
+    file.create_dataset("amplitude", shape=(2, 2, 2, 2), dtype="f4", external=[("/etc/passwd", 0, 64)])
+
+
+def linked(target):
+    def damage(file):
+        del file["fresnel"]
+        file["fresnel"] = target
+    return damage
+
+
+def group_in_itself(file):
+    file["axis/axis"] = file["/"]
+    del file["matrix"]
+    file["matrix"] = file["axis"]
+
+
+def never_written(file):
+    del file["matrix"]
+    file.create_dataset("matrix", shape=(2, 2, 2, 2, 3, 3), dtype="f4")
+
+
+def axes_of_64_never_written(file):
+    for axis in AXES:
+        attributes = dict(file[f"axis/{axis}"].attrs)
+        del file[f"axis/{axis}"]
+        last = {"theta": 1.5706, "phi": 1.5707}.get(axis, 1)
+        file[f"axis/{axis}"] = np.linspace(0, last, 64)
+        file[f"axis/{axis}"].attrs.update(attributes)
+    for name, kind in (("matrix", "f4"), ("amplitude", "f4"), ("fresnel", "f4"), ("sw_loss", "f4"),
+                       ("status", "u1"), ("iterations", "u2")):
+        shape = (64,) * 4 + ((3, 3) if name == "matrix" else ())
+        del file[name]
+        file.create_dataset(name, shape=shape, dtype=kind)
+
+
+def huge_axis(file):
+    del file["axis/phi"]
+    file.create_dataset("axis/phi", shape=(1 << 60,), dtype="f8", chunks=(1024,))
+    file["axis/phi"].attrs["warp"] = "linear"
+
+
+HDF5_LIES = {
+    "virtual_matrix": virtual_matrix,
+    "other_files_bytes": other_files_bytes,
+    "link_to_itself": linked(h5py.SoftLink("/fresnel")),
+    "link_to_another_file": linked(h5py.ExternalLink("/dev/zero", "/fresnel")),
+    "group_in_itself": group_in_itself,
+    "never_written": never_written,
+    "axes_of_64_never_written": axes_of_64_never_written,
+    "axis_of_2_to_60": huge_axis,
+    "alpha_min_is_nan": lambda f: f.attrs.__setitem__("alpha_min", np.float64("nan")),
+    "seed_is_a_list": lambda f: f.attrs.__setitem__("seed", np.zeros(16, "u8")),
+}
+
+
+def hdf5_seeds(table, folder):
+    shutil.copyfile(table, folder / "good.h5")
+    short_copy(table, folder / "old_format.h5", "earliest")
+    short_copy(table, folder / "new_format.h5", ("v108", "v108"))
+    short_copy(table, folder / "chunked.h5", "earliest", chunks=True)
+    for name, damage in HDF5_LIES.items():
+        shutil.copyfile(folder / "new_format.h5", folder / f"{name}.h5")
+        with h5py.File(folder / f"{name}.h5", "r+") as file:
+            damage(file)
+    for cut in (8, 48, 500):
+        (folder / f"cut_{cut}.h5").write_bytes(table.read_bytes()[:cut])
+
+
+# ---- NPY ----
+
+def npy(shape, values, version=1, descr="<f4"):
+    text = f"{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}".encode()
+    size = struct.pack("<H" if version == 1 else "<I", len(text))
+    return b"\x93NUMPY" + bytes([version, 0]) + size + text + values
+
+
+def npy_seeds(table, folder):
+    (folder / "good.npy").write_bytes(table.read_bytes())
+    one = np.eye(3, dtype="<f4").tobytes()
+    lies = {
+        "one_entry": npy("(1, 1, 1, 1, 3, 3)", one),
+        "version_2": npy("(1, 1, 1, 1, 3, 3)", one, 2),
+        "skipped": npy("(1, 1, 1, 1, 3, 3)", np.full(9, np.nan, "<f4").tobytes()),
+        "nan_in_a_matrix": npy("(1, 1, 1, 1, 3, 3)", one[:-4] + struct.pack("<f", float("nan"))),
+        "all_64_no_values": npy("(64, 64, 64, 64, 3, 3)", b""),
+        "2_to_60": npy(f"({1 << 60}, 1, 1, 1, 3, 3)", one),
+        "2_to_64": npy(f"({1 << 64}, 1, 1, 1, 3, 3)", one),
+        "product_wraps": npy(f"({1 << 32}, {1 << 32}, 1, 1, 3, 3)", one),
+        "negative": npy("(-1, 1, 1, 1, 3, 3)", one),
+        "zero": npy("(0, 1, 1, 1, 3, 3)", b""),
+        "deep": npy("(" * 2000, one),
+        "header_of_4_gb": b"\x93NUMPY\x02\x00\xff\xff\xff\xff",
+        "f8": npy("(1, 1, 1, 1, 3, 3)", one + one, descr="<f8"),
+    }
+    for name, content in lies.items():
+        (folder / f"{name}.npy").write_bytes(content)
+
+
+# ---- OpenEXR ----
+
+def exr_attribute(content, name, change):
+    """The file with the value of a header attribute changed; its size with it."""
+    start = content.index(name.encode() + b"\0")
+    size_at = content.index(b"\0", start + len(name) + 1) + 1
+    (size,) = struct.unpack_from("<i", content, size_at)
+    value = change(content[size_at + 4:size_at + 4 + size])
+    return content[:size_at] + struct.pack("<i", len(value)) + value + content[size_at + 4 + size:]
+
+
+def axes_of_64(value):
+    axes = json.loads(value)
+    for axis in AXES:
+        axes[axis] = list(np.linspace(0, axes[axis][-1], 64).round(15))
+    return json.dumps(axes).encode()
+
+
+def with_size(content, name, size):
+    start = content.index(name.encode() + b"\0")
+    at = content.index(b"\0", start + len(name) + 1) + 1
+    return content[:at] + struct.pack("<i", size) + content[at + 4:]
+
+
+def exr_seeds(texture, folder):
+    good = texture.read_bytes()
+    lies = {
+        "good": good,
+        "cut": good[:300],
+        "window_negative": exr_attribute(good, "dataWindow", lambda v: struct.pack("<4i", 3, 3, 0, 0)),
+        "window_of_2_to_31": exr_attribute(
+            good, "dataWindow", lambda v: struct.pack("<4i", -(1 << 31), 0, (1 << 31) - 1, 3)),
+        "all_64_no_pixels": exr_attribute(
+            exr_attribute(good, "dataWindow", lambda v: struct.pack("<4i", 0, 0, 4095, 4095)),
+            "ltc:axes", axes_of_64),
+        "alpha_min_is_nan": exr_attribute(good, "ltc:alpha_min",
+                                          lambda v: struct.pack("<d", float("nan"))),
+        "axes_deep": exr_attribute(good, "ltc:axes", lambda v: b"[" * 4000),
+        "axes_are_text": exr_attribute(good, "ltc:axes", lambda v: b'{"alpha": "0, 1"}'),
+        "attribute_of_negative_size": with_size(good, "ltc:axes", -1),
+        "attribute_of_2_gb": with_size(good, "ltc:axes", (1 << 31) - 1),
+        "compression_of_200": exr_attribute(good, "compression", lambda v: b"\xc8"),
+    }
+    for name, content in lies.items():
+        (folder / f"{name}.exr").write_bytes(content)
+
+
+# ---- Text ----
+
+def config_seeds(source, folder):
+    lies = {
+        "default": (source / "config/default.toml").read_text(),
+        "sections": "[table]\nstorage = 'mirror-frame'\n[table.alpha]\nnodes = 4\nfirst = 0.1\n",
+        "inline": "table = { alpha = { nodes = 3 }, brdf = \"ggx\" }\nfit.seed = 1\n",
+        "2_to_60": f"[table.alpha]\nnodes = {1 << 60}\n",
+        "2_to_64": f"[table.alpha]\nnodes = {1 << 64}\n",
+        "negative": "[table.alpha]\nnodes = -1\n",
+        "nan": "[table]\nalpha_min = nan\n[table.theta]\nlast_degrees = inf\n",
+        "list": "[fit]\nseed = [1, [2, {a = 1979-05-27T07:32:00Z}]]\n",
+        "deep_list": "a = " + "[" * 1000,
+        "deep_table": "a = " + "{a=" * 1000,
+        "deep_key": ".".join("a" * 1000) + " = 1\n",
+        "text": "[output]\nname = \"\"\"a\\u00e9\\\n  b\"\"\"\n",
+    }
+    for name, content in lies.items():
+        (folder / f"{name}.toml").write_text(content)
+
+
+def scene_seeds(source, folder):
+    material = '[[material]]\nname = "m"\n'
+    lies = {
+        "all_keys": material + "roughness = [0.1, 0.5]\nanisotropy = 0.5\nview_angle_degrees = [0, 60]\n"
+                    + material + "alpha_x = 0.2\nalpha_y = [0, 1]\n",
+        "nan": material + "roughness = nan\n",
+        "infinite": material + "alpha_x = [-inf, inf]\nalpha_y = 1e308\n",
+        "2_to_60": material + f"alpha_x = {1 << 60}\nalpha_y = -{1 << 60}\n",
+        "not_a_list": "material = 1\n",
+        "list_of_lists": "material = [[1], [{}]]\n",
+        "deep": material + "alpha_x = " + "[" * 1000,
+        "no_name": "[[material]]\n",
+    }
+    for name, content in lies.items():
+        (folder / f"{name}.toml").write_text(content)
+
+
+def glb(chunk, length=None, kind=b"JSON", chunk_length=None):
+    length = 20 + len(chunk) if length is None else length
+    chunk_length = len(chunk) if chunk_length is None else chunk_length
+    return b"glTF" + struct.pack("<III", 2, length, chunk_length) + kind + chunk
+
+
+def gltf_seeds(folder):
+    good = {"asset": {"version": "2.0"}, "materials": [
+        {}, {"name": "m", "pbrMetallicRoughness": {"roughnessFactor": 0.3, "metallicRoughnessTexture": {"index": 0}},
+             "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyTexture": {"index": 1}}}}],
+        "nodes": [{"children": [0]}], "buffers": [{"byteLength": 1 << 60}]}
+    text = json.dumps(good).encode()
+    lies = {
+        "good.gltf": text,
+        "good.glb": glb(text),
+        "nan.gltf": text.replace(b"0.3", b"NaN"),
+        "huge.gltf": text.replace(b"0.3", b"1e999"),
+        "negative_index.gltf": text.replace(b'"index": 0', b'"index": -1'),
+        "deep_list.gltf": b'{"materials": ' + b"[" * 2000,
+        "deep_object.gltf": b'{"a":' * 2000,
+        "chunk_of_4_gb.glb": glb(text, chunk_length=0xffffffff),
+        "file_of_4_gb.glb": glb(text, length=0xffffffff),
+        "empty_chunk.glb": glb(b""),
+        "binary_first.glb": glb(text, kind=b"BIN\0"),
+        "not_utf8.gltf": text.replace(b'"m"', b'"\xff\xc0"'),
+    }
+    for name, content in lies.items():
+        (folder / name).write_bytes(content)
+
+
+def main():
+    ltcfit, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    source = pathlib.Path(__file__).resolve().parents[2]
+    for reader in ("hdf5", "npy", "exr", "config", "scene", "gltf"):
+        (folder / reader).mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as made:
+        made_table(ltcfit, made)
+        made = pathlib.Path(made)
+        hdf5_seeds(made / "ltc.h5", folder / "hdf5")
+        npy_seeds(made / "ltc.npy", folder / "npy")
+        exr_seeds(made / "ltc.0.exr", folder / "exr")
+    config_seeds(source, folder / "config")
+    scene_seeds(source, folder / "scene")
+    gltf_seeds(folder / "gltf")
+
+
+main()

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "fuzz/readers.h"
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "config/config.h"
+#include "core/error.h"
+#include "export/consistency.h"
+#include "export/exr.h"
+#include "export/hdf5.h"
+#include "export/npy.h"
+#include "scene/coverage.h"
+#include "scene/readers.h"
+#include "table/synthetic.h"
+
+namespace ltc::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path written(const fs::path& path, std::string_view bytes) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush())
+    throw std::runtime_error("cannot write " + path.string());
+  return path;
+}
+
+// What was read must be fit to work with: the same promise as for a file that we wrote.
+void use(const Table& table, const fs::path& path) {
+  try {
+    require_consistent(table, path);
+  } catch (const InputError& error) {
+    throw std::logic_error(error.what());
+  }
+}
+
+void use(const Scene& scene) {
+  if (scene.materials.empty() ||
+      needed_entries(scene, Grid::paper(3)).size() != Grid::paper(3).size())
+    throw std::logic_error("a scene of nothing");
+}
+
+void read_h5_bytes(const fs::path& folder, std::string_view bytes) {
+  const fs::path path = written(folder / "table.h5", bytes);
+  use(read_hdf5(path), path);
+}
+
+void read_npy_bytes(const fs::path& folder, std::string_view bytes) {
+  const fs::path path = written(folder / "table.npy", bytes);
+  use(read_npy(path), path);
+}
+
+// A crash of the HDF5 library is a find here, for the guarded reader to be tried with.
+void read_unguarded_h5_bytes(const fs::path& folder, std::string_view bytes) {
+  const fs::path path = written(folder / "table.h5", bytes);
+  use(read_hdf5_unguarded(path), path);
+}
+
+// The bytes are the first of the three files; the others are those of a good table.
+void read_exr_bytes(const fs::path& folder, std::string_view bytes) {
+  const fs::path prefix = folder / "table";
+  if (!fs::exists(exr_path(prefix, 1)))
+    write_exr(testing::synthetic_table(Grid::paper(2), Storage::matrix), prefix, false);
+  written(exr_path(prefix, 0), bytes);
+  use(read_exr(prefix), prefix);
+}
+
+void read_config_bytes(const fs::path& folder, std::string_view bytes) {
+  const Config config = load_config(written(folder / "config.toml", bytes), {});
+  if (to_toml(config).empty())
+    throw std::logic_error("a config of nothing");
+}
+
+void read_toml_scene_bytes(const fs::path& folder, std::string_view bytes) {
+  use(load_toml_scene(written(folder / "scene.toml", bytes)));
+}
+
+// Text or binary: the first four bytes say which.
+void read_gltf_bytes(const fs::path& folder, std::string_view bytes) {
+  use(load_gltf_scene(written(folder / "scene.gltf", bytes)));
+}
+
+}  // namespace
+
+const Reader& unguarded_hdf5_reader() {
+  static const Reader reader = {"unguarded_hdf5", read_unguarded_h5_bytes};
+  return reader;
+}
+
+const std::vector<Reader>& readers() {
+  static const std::vector<Reader> all = {
+      {"hdf5", read_h5_bytes},       {"npy", read_npy_bytes},          {"exr", read_exr_bytes},
+      {"config", read_config_bytes}, {"scene", read_toml_scene_bytes}, {"gltf", read_gltf_bytes}};
+  return all;
+}
+
+bool accepts(const Reader& reader, const fs::path& folder, std::string_view bytes) {
+  try {
+    reader.read(folder, bytes);
+    return true;
+  } catch (const InputError&) {
+  } catch (const IoError&) {
+  }
+  return false;
+}
+
+}  // namespace ltc::fuzz
