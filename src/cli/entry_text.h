@@ -1,19 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// How the program writes entries of a table.
+// Moved: entries are written the same way in messages of the library.
 #pragma once
 
-#include <cstddef>
-#include <string>
-
-#include "table/grid.h"
-
-namespace ltc::cli {
-
-// "3,0,7,4": the node's indices, as `ltcfit fit --entry` takes them.
-std::string entry_text(const Grid& grid, std::size_t flat);
-
-// "alpha 0.429, lambda 0.000, theta 90.0, phi 51.4", angles in degrees.
-std::string lobe_text(const Grid& grid, std::size_t flat);
-
-}  // namespace ltc::cli
+#include "table/entry_text.h"

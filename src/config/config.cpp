@@ -49,11 +49,13 @@ void check_together(const Draft& draft, const config::Sources& sources) {
 Config load_config(const std::optional<std::filesystem::path>& file,
                    std::span<const std::string> overrides) {
   Draft draft = config::draft_of(Config{});
+  const config::Vocabulary vocabulary =
+      config::vocabulary(config::keys(), draft, "config/default.toml lists the keys there are");
   config::Sources sources;
   if (file)
-    config::read_file(*file, draft, sources);
+    config::read_file(*file, vocabulary, sources);
   for (const std::string& override : overrides)
-    config::read_override(override, draft, sources);
+    config::read_override(override, vocabulary, sources);
   check_together(draft, sources);
   return config::config_of(draft);
 }

@@ -18,20 +18,29 @@
 
 namespace ltc::config {
 
-struct Key {
+// A key of the files that Settings are read from.
+template <typename Settings>
+struct KeyOf {
   std::string name;     // dotted: "fit.sgd.steps"
   std::string allowed;  // completes "expected …"
   std::string summary;
-  std::function<bool(Draft&, const Value&)>
+  std::function<bool(Settings&, const Value&)>
       set;  // false, and no change, if the value is not allowed
-  std::function<Value(const Draft&)> get;
+  std::function<Value(const Settings&)> get;
 };
+using Key = KeyOf<Draft>;
 
-// `member` is a function from Draft& to a pointer to the member that the key sets; the member's
+// `member` is a function from Settings& to a pointer to the member that the key sets; the member's
 // type is the type that the file must have.
 
+template <typename Pointer, typename Lambda, typename Settings>
+Settings settings_of_call(Pointer (Lambda::*)(Settings&) const);
 template <typename Member>
-using MemberType = std::remove_pointer_t<std::invoke_result_t<Member, Draft&>>;
+using SettingsType = decltype(settings_of_call(&Member::operator()));
+template <typename Member>
+using MemberType = std::remove_pointer_t<std::invoke_result_t<Member, SettingsType<Member>&>>;
+template <typename Member>
+using KeyFor = KeyOf<SettingsType<Member>>;
 
 // The numbers allowed: [least, most], without `least` itself if `above_least`, likewise
 // `below_most`.
@@ -54,48 +63,51 @@ inline constexpr Range below(double least, double most) {
   return {least, most, false, true};
 }
 
-template <typename T, typename Member>
-T get_member(Member member, const Draft& draft) {
-  return *member(const_cast<Draft&>(draft));  // read only: `member` takes Draft& to serve both ways
+template <typename T, typename Member, typename Settings>
+T get_member(Member member, const Settings& settings) {
+  // Read only: `member` takes Settings& to serve both ways.
+  return *member(const_cast<Settings&>(settings));
 }
 
 // A number: floating-point members take whole numbers too, integers take nothing else.
 template <typename Member>
-Key key(std::string name, Member member, Range range, std::string summary) {
+KeyFor<Member> key(std::string name, Member member, Range range, std::string summary) {
   using T = MemberType<Member>;
   static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
   constexpr bool whole = std::is_integral_v<T>;
   return {std::move(name),
           fmt::format("a {} in {}", whole ? "whole number" : "number", range.text()),
           std::move(summary),
-          [=](Draft& draft, const Value& value) {
+          [=](SettingsType<Member>& settings, const Value& value) {
             const auto* integer = std::get_if<std::int64_t>(&value);
             const auto* real = std::get_if<double>(&value);
             if (!integer && (whole || !real))
               return false;
             if (!range.contains(integer ? static_cast<double>(*integer) : *real))
               return false;
-            *member(draft) = integer ? static_cast<T>(*integer) : static_cast<T>(*real);
+            *member(settings) = integer ? static_cast<T>(*integer) : static_cast<T>(*real);
             return true;
           },
-          [=](const Draft& draft) -> Value {
+          [=](const SettingsType<Member>& settings) -> Value {
             using Stored = std::conditional_t<whole, std::int64_t, double>;
-            return static_cast<Stored>(get_member<T>(member, draft));
+            return static_cast<Stored>(get_member<T>(member, settings));
           }};
 }
 
 // true or false.
 template <typename Member>
-Key key(std::string name, Member member, std::string summary) {
+KeyFor<Member> key(std::string name, Member member, std::string summary) {
   static_assert(std::is_same_v<MemberType<Member>, bool>);
   return {std::move(name), "true or false", std::move(summary),
-          [=](Draft& draft, const Value& value) {
+          [=](SettingsType<Member>& settings, const Value& value) {
             if (!std::holds_alternative<bool>(value))
               return false;
-            *member(draft) = std::get<bool>(value);
+            *member(settings) = std::get<bool>(value);
             return true;
           },
-          [=](const Draft& draft) -> Value { return get_member<bool>(member, draft); }};
+          [=](const SettingsType<Member>& settings) -> Value {
+            return get_member<bool>(member, settings);
+          }};
 }
 
 template <typename T>
@@ -103,7 +115,8 @@ using Choices = std::vector<std::pair<std::string_view, T>>;
 
 // One of several names.
 template <typename Member>
-Key key(std::string name, Member member, Choices<MemberType<Member>> choices, std::string summary) {
+KeyFor<Member> key(std::string name, Member member, Choices<MemberType<Member>> choices,
+                   std::string summary) {
   using T = MemberType<Member>;
   std::string allowed;
   for (const auto& [choice, meaning] : choices) {
@@ -111,18 +124,18 @@ Key key(std::string name, Member member, Choices<MemberType<Member>> choices, st
     allowed += (allowed.empty() ? "" : last ? " or " : ", ") + quoted(choice);
   }
   return {std::move(name), allowed, std::move(summary),
-          [=](Draft& draft, const Value& value) {
+          [=](SettingsType<Member>& settings, const Value& value) {
             const auto* text = std::get_if<std::string>(&value);
             for (const auto& [choice, meaning] : choices)
               if (text && *text == choice) {
-                *member(draft) = meaning;
+                *member(settings) = meaning;
                 return true;
               }
             return false;
           },
-          [=](const Draft& draft) -> Value {
+          [=](const SettingsType<Member>& settings) -> Value {
             for (const auto& [choice, meaning] : choices)
-              if (meaning == get_member<T>(member, draft))
+              if (meaning == get_member<T>(member, settings))
                 return std::string(choice);
             return {};
           }};

@@ -10,7 +10,6 @@
 #include <optional>
 #include <vector>
 
-#include "config/registry.h"
 #include "config/suggestion.h"
 #include "config/toml_file.h"
 #include "core/error.h"
@@ -18,36 +17,33 @@
 namespace ltc::config {
 namespace {
 
-bool is_section(std::string_view name) {
-  return std::any_of(keys().begin(), keys().end(), [&](const Key& key) {
+bool is_section(const Vocabulary& vocabulary, std::string_view name) {
+  return std::any_of(vocabulary.keys.begin(), vocabulary.keys.end(), [&](const BoundKey& key) {
     return key.name.starts_with(name) && key.name.size() > name.size() &&
            key.name[name.size()] == '.';
   });
 }
 
-const std::vector<std::string>& key_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Key& key : keys())
-      all.push_back(key.name);
-    return all;
-  }();
+std::vector<std::string> key_names(const Vocabulary& vocabulary) {
+  std::vector<std::string> names;
+  for (const BoundKey& key : vocabulary.keys)
+    names.push_back(key.name);
   return names;
 }
 
 void set_key(const std::string& name, const toml::node& node, const std::string& source,
-             Draft& draft, Sources& sources) {
-  const auto key = std::find_if(keys().begin(), keys().end(),
-                                [&](const Key& candidate) { return candidate.name == name; });
+             const Vocabulary& vocabulary, Sources& sources) {
+  const std::vector<BoundKey>& keys = vocabulary.keys;
+  const auto key = std::find_if(keys.begin(), keys.end(),
+                                [&](const BoundKey& candidate) { return candidate.name == name; });
   const Value value = value_of(node);
-  if (key == keys().end() && is_section(name))
+  if (key == keys.end() && is_section(vocabulary, name))
     throw InputError(fmt::format("{}: {} = {}: {} is a section; expected a key in it", source, name,
                                  toml_of(value), name));
-  if (key == keys().end())
-    throw InputError(
-        fmt::format("{}: unknown key {} = {}{}", source, name, toml_of(value),
-                    suggestion(name, key_names(), "config/default.toml lists the keys there are")));
-  if (!key->set(draft, value))
+  if (key == keys.end())
+    throw InputError(fmt::format("{}: unknown key {} = {}{}", source, name, toml_of(value),
+                                 suggestion(name, key_names(vocabulary), vocabulary.where_listed)));
+  if (!key->set(value))
     throw InputError(
         fmt::format("{}: {} = {}: expected {}", source, name, toml_of(value), key->allowed));
   sources.push_back({name, source});
@@ -56,25 +52,25 @@ void set_key(const std::string& name, const toml::node& node, const std::string&
 using SourceOf = std::function<std::string(const toml::node&)>;
 
 void set_keys(const std::string& prefix, const toml::table& table, const SourceOf& source_of,
-              Draft& draft, Sources& sources) {
+              const Vocabulary& vocabulary, Sources& sources) {
   for (const auto& [key, node] : table) {
     const std::string name = prefix + std::string(key.str());
-    if (const toml::table* section = node.as_table(); section && is_section(name))
-      set_keys(name + ".", *section, source_of, draft, sources);
+    if (const toml::table* section = node.as_table(); section && is_section(vocabulary, name))
+      set_keys(name + ".", *section, source_of, vocabulary, sources);
     else
-      set_key(name, node, source_of(node), draft, sources);
+      set_key(name, node, source_of(node), vocabulary, sources);
   }
 }
 
 }  // namespace
 
-void read_file(const std::filesystem::path& file, Draft& draft, Sources& sources) {
+void read_file(const std::filesystem::path& file, const Vocabulary& vocabulary, Sources& sources) {
   set_keys(
       "", read_toml(file, "config"),
-      [&](const toml::node& node) { return place_of(file, node.source()); }, draft, sources);
+      [&](const toml::node& node) { return place_of(file, node.source()); }, vocabulary, sources);
 }
 
-void read_override(std::string_view override, Draft& draft, Sources& sources) {
+void read_override(std::string_view override, const Vocabulary& vocabulary, Sources& sources) {
   const std::size_t equals = override.find('=');
   if (equals == std::string_view::npos || equals == 0)
     throw InputError(fmt::format("--set {}: expected key=value, for example fit.seed=2", override));
@@ -90,9 +86,9 @@ void read_override(std::string_view override, Draft& draft, Sources& sources) {
     return std::nullopt;
   }();
   if (parsed)
-    set_key(name, *parsed->get("value"), "--set", draft, sources);
+    set_key(name, *parsed->get("value"), "--set", vocabulary, sources);
   else
-    set_key(name, toml::value<std::string>(std::string(text)), "--set", draft, sources);
+    set_key(name, toml::value<std::string>(std::string(text)), "--set", vocabulary, sources);
 }
 
 std::string latest_source(const Sources& sources, std::initializer_list<std::string_view> keys) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-#include "cli/entry_text.h"
+#include "table/entry_text.h"
 
 #include <fmt/format.h>
 
 #include <numbers>
 
-namespace ltc::cli {
+namespace ltc {
 
 std::string entry_text(const Grid& grid, std::size_t flat) {
   const NodeIndex node = grid.node(flat);
@@ -21,4 +21,4 @@ std::string lobe_text(const Grid& grid, std::size_t flat) {
                      grid.theta.nodes[node.theta] * degrees, grid.phi.nodes[node.phi] * degrees);
 }
 
-}  // namespace ltc::cli
+}  // namespace ltc

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// How entries of a table are written.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "table/grid.h"
+
+namespace ltc {
+
+// "3,0,7,4": the node's indices, as `ltcfit fit --entry` takes them.
+std::string entry_text(const Grid& grid, std::size_t flat);
+
+// "alpha 0.429, lambda 0.000, theta 90.0, phi 51.4", angles in degrees.
+std::string lobe_text(const Grid& grid, std::size_t flat);
+
+}  // namespace ltc

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What holds for every sound table, whoever made it and however good its fits are.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "table/table.h"
+
+namespace ltc {
+
+// Largest values allowed, and the effort of the checks that sample; docs/validation.md says what
+// each means and why it stands where it does.
+struct InvariantLimits {
+  double condition_number = 1e6;   // of M: its largest singular value over its smallest
+  double zero = 0;                 // entries of S that equation (16) says are zero
+  double upward_difference = 0;    // between values at theta = 0 that differ in phi alone
+  double unit_length = 1e-6;       // | |third column of S| - 1 |
+  double alignment_degrees = 0.1;  // by which the closed form would turn M further
+  double albedo_error = 2e-4;      // of amplitude and Fresnel against fresh quadrature
+  double half_determinant = 0.5;   // relative change of det(S) by rounding S to half precision
+  double loss_excess = 1;          // see check_invariants
+  double neighbour_excess = 1;     // likewise
+  int samples = 512;               // of a lobe, for loss and neighbours
+  int directions = 16;             // that they are projected on
+  int albedo_points = 16384;       // of the fresh quadrature
+  bool operator==(const InvariantLimits&) const = default;
+};
+
+// What a table's file holds beside the matrices: an .npy holds neither, textures no losses.
+struct TableContents {
+  bool albedo = true;  // amplitude and Fresnel
+  bool loss = true;
+};
+
+struct InvariantResult {
+  std::string name;     // "determinant", "condition number", …
+  bool checked = true;  // false: what it needs is not in the file
+  bool passed = true;   // true where it is not checked
+  double value = 0;     // the worst of all entries with values; NaN if an entry's is
+  double limit = 0;
+  bool at_most = true;               // the value must be at most the limit; false: above it
+  std::vector<std::size_t> entries;  // that fail, flat, worst first
+  std::size_t worst = 0;             // flat, the entry of `value`; only if `has_worst`
+  bool has_worst = false;            // false: nothing to judge, or not a matter of entries
+  std::string message;               // one line that names the worst entry; empty if passed
+};
+
+// All invariants, in the order of docs/validation.md, each judged over the entries that have values
+// (skipped ones are none's business; failed ones are not finite). Never throws for what the table
+// holds; Interrupted if `progress` asks for it.
+std::vector<InvariantResult> check_invariants(const Table& table, const InvariantLimits& limits,
+                                              int threads, Progress* progress,
+                                              const TableContents& contents = {});
+
+}  // namespace ltc

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "validate/matrix_invariants.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+#include <limits>
+
+#include "align/align.h"
+#include "core/angle.h"
+
+namespace ltc {
+
+double condition_number(const Eigen::Matrix3d& matrix) {
+  const Eigen::Vector3d singular_values =
+      Eigen::JacobiSVD<Eigen::Matrix3d>(matrix).singularValues();
+  return singular_values.z() > 0 ? singular_values.x() / singular_values.z()
+                                 : std::numeric_limits<double>::infinity();
+}
+
+double misalignment_degrees(const Eigen::Matrix3d& matrix) {
+  if (matrix.determinant() < 0)
+    return 180;
+  const Eigen::Matrix3d turn = matrix.partialPivLu().solve(align(matrix));
+  return std::abs(std::atan2(turn(1, 0), turn(0, 0))) / radians_per_degree;
+}
+
+double half_determinant_change(const Eigen::Matrix3d& stored) {
+  const Eigen::Matrix3d rounded = stored.unaryExpr(
+      [](double value) { return static_cast<double>(Eigen::half(static_cast<float>(value))); });
+  if (!rounded.allFinite())
+    return std::numeric_limits<double>::quiet_NaN();
+  const double determinant = stored.determinant();
+  return std::abs(rounded.determinant() - determinant) / std::abs(determinant);
+}
+
+}  // namespace ltc

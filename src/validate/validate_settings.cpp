@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "validate/validate_settings.h"
+
+#include "config/key.h"
+#include "config/reader.h"
+
+namespace ltc {
+namespace {
+
+using config::key;
+using config::Range;
+using Key = config::KeyOf<ValidateSettings>;
+using S = ValidateSettings;
+
+constexpr double unbounded = 1e300;
+
+// One line a key: its name, the member it sets, what is allowed, what it means. A new section is a
+// function like this one, and a line in keys().
+// clang-format off
+std::vector<Key> invariant_keys() {
+  return {
+      key("invariants.condition_number", [](S& s) { return &s.invariants.condition_number; }, Range{1, unbounded}, "largest condition number of a matrix"),
+      key("invariants.zero", [](S& s) { return &s.invariants.zero; }, Range{0, unbounded}, "largest absolute value where symmetry wants a zero"),
+      key("invariants.upward_difference", [](S& s) { return &s.invariants.upward_difference; }, Range{0, unbounded}, "largest difference between values at theta = 0 that differ in phi alone"),
+      key("invariants.unit_length", [](S& s) { return &s.invariants.unit_length; }, Range{0, unbounded}, "largest deviation of a third column's length from 1"),
+      key("invariants.alignment_degrees", [](S& s) { return &s.invariants.alignment_degrees; }, Range{0, 180}, "largest angle by which alignment would turn a matrix further"),
+      key("invariants.albedo_error", [](S& s) { return &s.invariants.albedo_error; }, Range{0, 1}, "largest error of amplitude and Fresnel against fresh quadrature"),
+      key("invariants.half_determinant", [](S& s) { return &s.invariants.half_determinant; }, Range{0, unbounded}, "largest relative change of a determinant by rounding to half precision"),
+      key("invariants.loss_excess", [](S& s) { return &s.invariants.loss_excess; }, Range{0, unbounded}, "largest excess of an entry's loss over the stored one"),
+      key("invariants.neighbour_excess", [](S& s) { return &s.invariants.neighbour_excess; }, Range{0, unbounded}, "largest jump between neighbours over what GGX does"),
+      key("invariants.samples", [](S& s) { return &s.invariants.samples; }, Range{64, 65536}, "samples of a lobe"),
+      key("invariants.directions", [](S& s) { return &s.invariants.directions; }, Range{4, 4096}, "directions that they are projected on"),
+      key("invariants.albedo_points", [](S& s) { return &s.invariants.albedo_points; }, Range{64, 1 << 20}, "points of the fresh quadrature"),
+  };
+}
+// clang-format on
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> all = [] {
+    std::vector<Key> keys;
+    for (const std::vector<Key>& section : {invariant_keys()})
+      keys.insert(keys.end(), section.begin(), section.end());
+    return keys;
+  }();
+  return all;
+}
+
+}  // namespace
+
+ValidateSettings load_validate_settings(const std::optional<std::filesystem::path>& file,
+                                        std::span<const std::string> overrides) {
+  ValidateSettings settings;
+  const config::Vocabulary vocabulary =
+      config::vocabulary(keys(), settings, "config/validate.toml lists the keys there are");
+  config::Sources sources;
+  if (file)
+    config::read_file(*file, vocabulary, sources);
+  for (const std::string& override : overrides)
+    config::read_override(override, vocabulary, sources);
+  return settings;
+}
+
+std::vector<ConfigKey> validate_keys() {
+  const ValidateSettings defaults;
+  std::vector<ConfigKey> result;
+  for (const Key& key : keys())
+    result.push_back({key.name, key.allowed, key.summary, config::toml_of(key.get(defaults))});
+  return result;
+}
+
+}  // namespace ltc

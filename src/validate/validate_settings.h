@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What `ltcfit validate` demands of a table: thresholds and efforts, from config/validate.toml.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "validate/invariants.h"
+
+namespace ltc {
+
+// One member a section of the file.
+struct ValidateSettings {
+  InvariantLimits invariants;
+};
+
+// The defaults, then what `file` says if there is one, then the overrides in order, as load_config.
+// Throws InputError and IoError as load_config does.
+ValidateSettings load_validate_settings(const std::optional<std::filesystem::path>& file,
+                                        std::span<const std::string> overrides);
+
+// What can be set, in the order of the file; validate_settings.cpp is where keys are added.
+std::vector<ConfigKey> validate_keys();
+
+}  // namespace ltc
