@@ -49,9 +49,9 @@ std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
   parallel_for_each<HeldOutJudge>(
       "compare", entries.size(), threads, progress, [&] { return prototype; },
       [&](std::size_t flat, HeldOutJudge& judge) {
-        judge.set_lobe(a.grid.lobe(a.grid.node(flat)));
-        entries[flat] = {judge.loss(a.matrix_at(flat)), judge.loss(b.matrix_at(flat)),
-                         judge.spread()};
+        const PairJudgement judgement = judge.judge_pair(
+            a.grid.lobe(a.grid.node(flat)), a.matrix_at(flat), b.matrix_at(flat));
+        entries[flat] = {judgement.loss_a, judgement.loss_b, judgement.spread};
       });
   return entries;
 }
