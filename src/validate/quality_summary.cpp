@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "validate/quality_summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -196,12 +198,29 @@ std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
   const auto check = [](const char* key, const char* what, double value, double limit) {
     return ThresholdCheck{key, what, value, limit, std::isnan(value) || value <= limit};
   };
-  return {
-      check("node_loss", "mean relative loss at nodes", report.nodes.mean, thresholds.node_loss),
-      check("query_loss", "mean relative loss between nodes", report.query_losses.mean,
-            thresholds.query_loss),
-      check("area_light_error", "mean error under area lights", report.area_light.mean,
-            thresholds.area_light_error)};
+  return {check("quality.node_loss", "mean relative loss at nodes", report.nodes.mean,
+                thresholds.node_loss),
+          check("quality.query_loss", "mean relative loss between nodes", report.query_losses.mean,
+                thresholds.query_loss),
+          check("quality.area_light_error", "mean error under area lights", report.area_light.mean,
+                thresholds.area_light_error)};
+}
+
+std::string failure_line(const ThresholdCheck& check) {
+  return fmt::format("{} is {:.4g}, above {} = {:.4g}", check.what, check.value, check.key,
+                     check.limit);
+}
+
+std::string band_text(const Bands& bands, const Band& band) {
+  if (std::isinf(band.last))
+    return fmt::format("> {:.4g}{}", band.first, bands.unit);
+  return fmt::format("{:.4g}–{:.4g}{}", band.first, band.last, bands.unit);
+}
+
+std::string query_command(const GgxLobe& lobe) {
+  return fmt::format("ltcfit fit --alpha-x {:.9g} --alpha-y {:.9g} --theta {:.9g} --phi {:.9g}",
+                     lobe.alpha_x, lobe.alpha_y, lobe.theta_radians / radians_per_degree,
+                     lobe.phi_radians / radians_per_degree);
 }
 
 }  // namespace ltc

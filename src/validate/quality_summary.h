@@ -30,4 +30,13 @@ struct ThresholdCheck {
 std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
                                              const QualityThresholds& thresholds);
 
+// "mean relative loss between nodes is 0.31, above quality.query_loss = 0.13".
+std::string failure_line(const ThresholdCheck& check);
+
+// "0.1–0.2", "> 75°".
+std::string band_text(const Bands& bands, const Band& band);
+
+// The command that fits this very lobe: "ltcfit fit --alpha-x 0.04 …".
+std::string query_command(const GgxLobe& lobe);
+
 }  // namespace ltc

@@ -98,7 +98,7 @@ TEST(QualityThresholds, NameWhatIsPassed) {
   const std::vector<ThresholdCheck> checks = check_thresholds(report, {0.21, 0.2, 0.022001});
   ASSERT_EQ(checks.size(), 3u);
   EXPECT_TRUE(checks[0].passed);
-  EXPECT_EQ(checks[1].key, "query_loss");
+  EXPECT_EQ(checks[1].key, "quality.query_loss");
   EXPECT_FALSE(checks[1].passed);
   EXPECT_NEAR(checks[1].value, 0.22, 1e-15);
   EXPECT_EQ(checks[1].limit, 0.2);
