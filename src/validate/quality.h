@@ -56,7 +56,7 @@ Distribution distribution(const std::vector<double>& values);
 // A lobe that is asked for, and the LTC fitted to it.
 struct QueryFloor {
   GgxLobe lobe;
-  Eigen::Matrix3d matrix;
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   double spread = 0;
   double relative_loss = 0;
   AreaLightError area_light;  // with the lobe's own amplitude
