@@ -8,6 +8,7 @@ namespace ltc::cli {
 Action declare_generate(CLI::App& app);
 Action declare_fit(CLI::App& app);
 Action declare_diff(CLI::App& app);
+Action declare_validate(CLI::App& app);
 Action declare_bench(CLI::App& app);
 Action declare_render(CLI::App& app);
 
@@ -19,6 +20,8 @@ std::span<const Command> commands() {
        "fit one entry or lobe and show every step, matrix and loss, and a picture", declare_fit},
       {"diff", "Compare and validate tables",
        "tell which of two tables is nearer to GGX, and where", declare_diff},
+      {"validate", "Compare and validate tables",
+       "check that a table is sound, and name the entries that are not", declare_validate},
       {"bench", "Compare and validate tables",
        "measure the run time and error of many settings in one run", declare_bench},
       {"render", "Compare and validate tables", "render spheres with a table and with sampled GGX",

@@ -45,22 +45,11 @@ std::string csv_text(const Grid& grid, const std::vector<EntryComparison>& entri
   return text;
 }
 
-// The folder of the CSV file, created if need be: better now than after the comparison.
-std::optional<OutputFolder> csv_folder(const std::filesystem::path& csv) {
-  if (csv.empty())
-    return std::nullopt;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(csv, ignored))
-    throw IoError(fmt::format("cannot write {}: it is a folder", csv.string()));
-  return std::optional<OutputFolder>(std::in_place,
-                                     csv.has_parent_path() ? csv.parent_path() : ".");
-}
-
 void diff(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
   const Table a = read_table(arguments.a), b = read_table(arguments.b);
-  const std::optional<OutputFolder> folder = csv_folder(arguments.csv);
+  const std::optional<OutputFolder> folder = folder_of_file(arguments.csv);
   const std::vector<EntryComparison> entries =
       compare_tables(a, b, arguments.settings, arguments.threads, &progress);
   std::string text = fmt::format(

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "cli/entry_text.h"
 #include "core/angle.h"
+#include "validate/matrix_invariants.h"
 
 namespace ltc::cli {
 namespace {
@@ -57,13 +57,6 @@ std::vector<NamedStep> named_steps(const FitReport& report) {
       steps.push_back({phase, same ? steps.back().number + 1 : 1, step});
     }
   return steps;
-}
-
-double condition_number(const Eigen::Matrix3d& matrix) {
-  if (!matrix.allFinite())
-    return std::numeric_limits<double>::quiet_NaN();
-  const Eigen::Vector3d values = matrix.jacobiSvd().singularValues();
-  return values[0] / values[2];
 }
 
 double degrees(double radians) {

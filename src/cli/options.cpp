@@ -26,9 +26,12 @@ std::string check_threads(const std::string& text) {
 
 }  // namespace
 
+std::optional<std::filesystem::path> ConfigArguments::path() const {
+  return file.empty() ? std::nullopt : std::optional<std::filesystem::path>(file);
+}
+
 Config ConfigArguments::load() const {
-  return load_config(file.empty() ? std::nullopt : std::optional<std::filesystem::path>(file),
-                     overrides);
+  return load_config(path(), overrides);
 }
 
 std::string ConfigArguments::as_text() const {
@@ -40,20 +43,20 @@ std::string ConfigArguments::as_text() const {
   return text;
 }
 
-void add_config_options(CLI::App& app, ConfigArguments& arguments) {
+void add_config_options(CLI::App& app, ConfigArguments& arguments, const ConfigHelp& help) {
   const auto not_empty = [](const std::string& text) {
     return std::string(text.empty() ? "is empty; expected a TOML file" : "");
   };
-  app.add_option("-c,--config", arguments.file,
-                 "TOML file that says what differs from the defaults [none]")
+  app.add_option("-c,--config", arguments.file, help.file)
       ->check(not_empty)
       ->option_text("FILE")
-      ->group("What to fit");
-  app.add_option("-s,--set", arguments.overrides,
-                 "change one key of the config, for example fit.seed=2; can be repeated")
+      ->group(help.group);
+  app.add_option(
+         "-s,--set", arguments.overrides,
+         fmt::format("change one key of the config, for example {}; can be repeated", help.example))
       ->allow_extra_args(false)
       ->option_text("KEY=VALUE")
-      ->group("What to fit");
+      ->group(help.group);
 }
 
 void add_output_option(CLI::App& app, std::string& folder) {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,19 @@ struct ConfigArguments {
   std::string file;  // empty: defaults
   std::vector<std::string> overrides;
 
+  std::optional<std::filesystem::path> path() const;
   Config load() const;
   // " --config F --set key=value", as a shell reads it.
   std::string as_text() const;
 };
 
-void add_config_options(CLI::App& app, ConfigArguments& arguments);
+// How the help describes them.
+struct ConfigHelp {
+  const char* file = "TOML file that says what differs from the defaults [none]";
+  const char* example = "fit.seed=2";
+  const char* group = "What to fit";
+};
+void add_config_options(CLI::App& app, ConfigArguments& arguments, const ConfigHelp& help = {});
 void add_output_option(CLI::App& app, std::string& folder);
 void add_threads_option(CLI::App& app, int& threads);
 

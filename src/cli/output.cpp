@@ -73,4 +73,14 @@ void OutputFolder::remove_created() {
     fs::remove(*folder, ignored);  // refuses a folder that holds anything
 }
 
+std::optional<OutputFolder> folder_of_file(const std::filesystem::path& file) {
+  if (file.empty())
+    return std::nullopt;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw IoError(fmt::format("cannot write {}: it is a folder", file.string()));
+  return std::optional<OutputFolder>(std::in_place,
+                                     file.has_parent_path() ? file.parent_path() : ".");
+}
+
 }  // namespace ltc::cli

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,5 +38,9 @@ class OutputFolder {
   std::filesystem::path path_;
   std::vector<std::filesystem::path> created_;  // outermost first
 };
+
+// The folder of a file that is to be written, created if need be: better now than after the work.
+// None where the name is empty. Throws IoError as OutputFolder, and where the name is a folder's.
+std::optional<OutputFolder> folder_of_file(const std::filesystem::path& file);
 
 }  // namespace ltc::cli

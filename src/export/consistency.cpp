@@ -50,20 +50,6 @@ std::string fault(const Axis& axis, double least, double most) {
   return {};
 }
 
-void require_sizes(const Table& table, const std::filesystem::path& file) {
-  const std::size_t entries = table.grid.size();
-  const auto require = [&](std::string_view name, std::size_t size, std::size_t expected) {
-    if (size != expected)
-      refuse(file, fmt::format("{} has {} values; the axes ask for {}", name, size, expected));
-  };
-  require("matrix", table.stored.size(), 9 * entries);
-  require("amplitude", table.amplitude.size(), entries);
-  require("fresnel", table.fresnel.size(), entries);
-  require("sw_loss", table.sw_loss.size(), entries);
-  require("status", table.status.size(), entries);
-  require("iterations", table.iterations.size(), entries);
-}
-
 }  // namespace
 
 std::array<const Axis*, 4> axes_of(const Grid& grid) {
@@ -85,9 +71,23 @@ void require_consistent(const Grid& grid, const std::filesystem::path& file) {
     refuse(file, fmt::format("alpha_min is {}; it must be positive", grid.alpha_min));
 }
 
-void require_consistent(const Table& table, const std::filesystem::path& file) {
+void require_shapes(const Table& table, const std::filesystem::path& file) {
   require_consistent(table.grid, file);
-  require_sizes(table, file);
+  const std::size_t entries = table.grid.size();
+  const auto require = [&](std::string_view name, std::size_t size, std::size_t expected) {
+    if (size != expected)
+      refuse(file, fmt::format("{} has {} values; the axes ask for {}", name, size, expected));
+  };
+  require("matrix", table.stored.size(), 9 * entries);
+  require("amplitude", table.amplitude.size(), entries);
+  require("fresnel", table.fresnel.size(), entries);
+  require("sw_loss", table.sw_loss.size(), entries);
+  require("status", table.status.size(), entries);
+  require("iterations", table.iterations.size(), entries);
+}
+
+void require_consistent(const Table& table, const std::filesystem::path& file) {
+  require_shapes(table, file);
   for (std::size_t i = 0; i < table.grid.size(); ++i) {
     const auto first = table.stored.begin() + static_cast<std::ptrdiff_t>(9 * i);
     if (has_values(table.status[i]) &&

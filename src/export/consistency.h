@@ -26,8 +26,10 @@ std::array<Axis*, 4> axes_of(Grid& grid);
 // 1], theta and phi in [0, pi/2]) or not where the warp puts them, or if alpha_min is not positive.
 void require_consistent(const Grid& grid, const std::filesystem::path& file);
 
-// The same, and that every array has the grid's size and the matrix of every entry that is neither
-// skipped nor failed is finite.
+// The same, and that every array has the grid's size.
+void require_shapes(const Table& table, const std::filesystem::path& file);
+
+// The same, and that the matrix of every entry that is neither skipped nor failed is finite.
 void require_consistent(const Table& table, const std::filesystem::path& file);
 
 }  // namespace ltc

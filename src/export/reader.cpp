@@ -26,4 +26,8 @@ Table read_table(const std::filesystem::path& path) {
       fmt::format("{}: no suffix of a table; allowed: .h5, .npy, .0.exr, .1.exr, .2.exr", name));
 }
 
+TableContents contents_of(const std::filesystem::path& path) {
+  return {.albedo = path.extension() != ".npy", .loss = path.extension() == ".h5"};
+}
+
 }  // namespace ltc

@@ -13,4 +13,11 @@ namespace ltc {
 // the other two. Throws InputError for another suffix, and as the format's own reader.
 Table read_table(const std::filesystem::path& path);
 
+// What a file of such a name holds beside axes and matrices.
+struct TableContents {
+  bool albedo = true;  // amplitude and Fresnel: not in an .npy
+  bool loss = true;    // and what else is known of the fits: in an .h5 alone
+};
+TableContents contents_of(const std::filesystem::path& path);
+
 }  // namespace ltc

@@ -8,20 +8,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "brdf/albedo.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "export/consistency.h"
 #include "table/entry_text.h"
 #include "table/symmetry.h"
+#include "validate/lobe_invariants.h"
 #include "validate/matrix_invariants.h"
 
 namespace ltc {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-struct NoState {};
 
 // One value an entry, and how far it may go. NaN fails, but for entries that are not judged.
 struct Measurement {
@@ -31,8 +32,12 @@ struct Measurement {
   std::vector<double> values;
   std::vector<bool> judged;
 
-  Measurement(std::string name_, double limit_, const std::vector<bool>& judged_)
-      : name(std::move(name_)), limit(limit_), values(judged_.size(), nan), judged(judged_) {}
+  Measurement(std::string name_, double limit_, bool at_most_, const std::vector<bool>& judged_)
+      : name(std::move(name_)),
+        limit(limit_),
+        at_most(at_most_),
+        values(judged_.size(), nan),
+        judged(judged_) {}
 
   bool fails(std::size_t flat) const {
     return judged[flat] && !(at_most ? values[flat] <= limit : values[flat] > limit);
@@ -80,41 +85,58 @@ InvariantResult not_in_file(std::string name, double limit) {
   return result;
 }
 
+// Of the whole table, not of entries.
+InvariantResult check_shapes(const Table& table) {
+  InvariantResult result;
+  result.name = "shapes and axes";
+  try {
+    require_shapes(table, "table");
+  } catch (const InputError& error) {
+    result.passed = false;
+    result.message = error.what();
+  }
+  return result;
+}
+
 // The whole table under the checks, and which entries they judge.
 class Checks {
  public:
-  Checks(const Table& table, const InvariantLimits& limits, int threads, Progress* progress)
+  Checks(const Table& table, const InvariantLimits& limits, int threads, Progress* progress,
+         const TableContents& contents)
       : table_(table),
         limits_(limits),
         threads_(threads),
         progress_(progress),
-        has_values_(table.grid.size()),
-        finite_(table.grid.size()) {
+        contents_(contents),
+        present_(table.grid.size()),
+        finite_(table.grid.size()),
+        invertible_(table.grid.size()) {
     for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
-      has_values_[flat] = table.status[flat] != Status::skipped;
-      finite_[flat] = has_values_[flat] && table.stored_at(flat).allFinite();
+      present_[flat] = table.status[flat] != Status::skipped;
+      finite_[flat] = present_[flat] && table.stored_at(flat).allFinite();
+      invertible_[flat] = finite_[flat] && std::isfinite(condition_number(table.matrix_at(flat)));
     }
   }
 
-  InvariantResult finite(const TableContents& contents) const {
-    return judged("finite", 0, has_values_, [&](std::size_t flat) {
+  InvariantResult finite() const {
+    return judged("finite", 0, present_, [&](std::size_t flat) {
       const auto count = [](float value) { return std::isfinite(value) ? 0.0 : 1.0; };
       double not_finite = 0;
       for (std::size_t i = 9 * flat; i < 9 * flat + 9; ++i)
         not_finite += count(table_.stored[i]);
-      if (contents.albedo)
+      if (contents_.albedo)
         not_finite += count(table_.amplitude[flat]) + count(table_.fresnel[flat]);
-      if (contents.loss)
+      if (contents_.loss)
         not_finite += count(table_.sw_loss[flat]);
       return not_finite;
     });
   }
 
   InvariantResult determinant() const {
-    Measurement measurement("determinant", 0, finite_);
-    measurement.at_most = false;
-    return measured(std::move(measurement),
-                    [&](std::size_t flat) { return table_.stored_at(flat).determinant(); });
+    constexpr bool at_most = false;
+    return judged(
+        "determinant", 0, finite_,
+        [&](std::size_t flat) { return table_.stored_at(flat).determinant(); }, at_most);
   }
 
   InvariantResult condition() const {
@@ -146,72 +168,110 @@ class Checks {
   }
 
   InvariantResult alignment() const {
-    return judged("alignment", limits_.alignment_degrees, finite_,
+    return judged("alignment", limits_.alignment_degrees, invertible_,
                   [&](std::size_t flat) { return misalignment_degrees(table_.matrix_at(flat)); });
   }
 
   InvariantResult half_precision() const {
-    return judged("half precision", limits_.half_determinant, finite_, [&](std::size_t flat) {
+    return judged("half precision", limits_.half_determinant, invertible_, [&](std::size_t flat) {
       return half_determinant_change(table_.stored_at(flat));
     });
   }
 
-  InvariantResult albedo_range(const TableContents& contents) const {
+  InvariantResult albedo_range() const {
     const std::string name = "albedo range";
-    if (!contents.albedo)
+    if (!contents_.albedo)
       return not_in_file(name, 0);
-    return judged(name, 0, has_values_, [&](std::size_t flat) {
+    return judged(name, 0, present_, [&](std::size_t flat) {
       const double amplitude = table_.amplitude[flat], fresnel = table_.fresnel[flat];
       return std::max({0.0, -fresnel, fresnel - amplitude, amplitude - 1});
     });
   }
 
-  InvariantResult albedo(const TableContents& contents) const {
-    const std::string name = "albedo";
-    if (!contents.albedo)
+  InvariantResult albedo_quadrature() const {
+    const std::string name = "albedo quadrature";
+    if (!contents_.albedo)
       return not_in_file(name, limits_.albedo_error);
     const AlbedoRule rule(static_cast<std::size_t>(limits_.albedo_points));
-    return judged(name, limits_.albedo_error, has_values_, [&](std::size_t flat) {
-      const Albedo albedo = integrate_albedo(lobe_at(flat), rule);
-      return std::max(std::abs(table_.amplitude[flat] - albedo.amplitude),
-                      std::abs(table_.fresnel[flat] - albedo.fresnel));
-    });
+    std::vector<double> errors(table_.grid.size(), nan);
+    struct NoState {};
+    parallel_for_each<NoState>(
+        "albedo", errors.size(), threads_, progress_, [] { return NoState{}; },
+        [&](std::size_t flat, NoState&) {
+          if (!present_[flat])
+            return;
+          const Albedo albedo = integrate_albedo(lobe_at(flat), rule);
+          errors[flat] = std::max(std::abs(table_.amplitude[flat] - albedo.amplitude),
+                                  std::abs(table_.fresnel[flat] - albedo.fresnel));
+        });
+    return judged(name, limits_.albedo_error, present_,
+                  [&](std::size_t flat) { return errors[flat]; });
+  }
+
+  InvariantResult loss() {
+    const std::string name = "stored loss";
+    if (!contents_.loss)
+      return not_in_file(name, limits_.loss_excess);
+    return judged(name, limits_.loss_excess, invertible_,
+                  [&](std::size_t flat) { return lobes().loss_excess[flat]; });
+  }
+
+  InvariantResult neighbours() {
+    std::vector<bool> with_neighbour = invertible_;
+    for (std::size_t flat = 0; flat < with_neighbour.size(); ++flat)
+      if (std::isnan(lobes().neighbour_excess[flat]))
+        with_neighbour[flat] = false;
+    return judged("neighbours", limits_.neighbour_excess, with_neighbour,
+                  [&](std::size_t flat) { return lobes().neighbour_excess[flat]; });
   }
 
  private:
   GgxLobe lobe_at(std::size_t flat) const { return table_.grid.lobe(table_.grid.node(flat)); }
 
+  // Measured once, when first asked for.
+  const LobeMeasures& lobes() {
+    if (!lobes_)
+      lobes_ = measure_lobes(
+          table_, invertible_,
+          {static_cast<std::size_t>(limits_.samples), static_cast<std::size_t>(limits_.directions)},
+          threads_, progress_);
+    return *lobes_;
+  }
+
+  // The entry of the same alpha and lambda at theta = 0 that comes first.
   double difference_to_first_phi(const std::vector<bool>& upward, std::size_t flat) const {
     NodeIndex node = table_.grid.node(flat);
     for (node.phi = 0; !upward[table_.grid.flat(node)];)
       ++node.phi;
     const std::size_t first = table_.grid.flat(node);
-    return (table_.stored_at(flat) - table_.stored_at(first)).cwiseAbs().maxCoeff();
+    double difference = (table_.stored_at(flat) - table_.stored_at(first)).cwiseAbs().maxCoeff();
+    if (contents_.albedo)
+      for (const std::vector<float>* values : {&table_.amplitude, &table_.fresnel})
+        difference =
+            std::max(difference, std::abs(static_cast<double>((*values)[flat]) - (*values)[first]));
+    return difference;
   }
 
-  template <typename Measure>
-  InvariantResult measured(Measurement measurement, Measure measure) const {
-    parallel_for_each<NoState>(
-        measurement.name, measurement.values.size(), threads_, progress_, [] { return NoState{}; },
-        [&](std::size_t flat, NoState&) {
-          if (measurement.judged[flat])
-            measurement.values[flat] = measure(flat);
-        });
-    return judge(table_.grid, measurement);
-  }
-
+  // Values of a measure that is over in no time.
   template <typename Measure>
   InvariantResult judged(std::string name, double limit, const std::vector<bool>& entries,
-                         Measure measure) const {
-    return measured(Measurement(std::move(name), limit, entries), measure);
+                         Measure measure, bool at_most = true) const {
+    Measurement measurement(std::move(name), limit, at_most, entries);
+    for (std::size_t flat = 0; flat < entries.size(); ++flat)
+      if (entries[flat])
+        measurement.values[flat] = measure(flat);
+    return judge(table_.grid, measurement);
   }
 
   const Table& table_;
   const InvariantLimits& limits_;
   const int threads_;
   Progress* const progress_;
-  std::vector<bool> has_values_;  // or failed: those that the table should have
+  const TableContents contents_;
+  std::vector<bool> present_;     // all but skipped entries; failed ones should have values
   std::vector<bool> finite_;      // of these, those whose matrix is finite
+  std::vector<bool> invertible_;  // of these, those whose matrix has an inverse
+  std::optional<LobeMeasures> lobes_;
 };
 
 }  // namespace
@@ -219,11 +279,23 @@ class Checks {
 std::vector<InvariantResult> check_invariants(const Table& table, const InvariantLimits& limits,
                                               int threads, Progress* progress,
                                               const TableContents& contents) {
-  const Checks checks(table, limits, threads, progress);
-  return {checks.finite(contents), checks.determinant(),    checks.condition(),
-          checks.zeros(),          checks.upward(),         checks.third_column(),
-          checks.alignment(),      checks.half_precision(), checks.albedo_range(contents),
-          checks.albedo(contents)};
+  const InvariantResult shapes = check_shapes(table);
+  if (!shapes.passed)
+    return {shapes};
+  Checks checks(table, limits, threads, progress, contents);
+  return {shapes,
+          checks.finite(),
+          checks.determinant(),
+          checks.condition(),
+          checks.zeros(),
+          checks.upward(),
+          checks.third_column(),
+          checks.alignment(),
+          checks.half_precision(),
+          checks.albedo_range(),
+          checks.albedo_quadrature(),
+          checks.loss(),
+          checks.neighbours()};
 }
 
 }  // namespace ltc

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "export/reader.h"
 #include "table/table.h"
 
 namespace ltc {
@@ -15,25 +16,18 @@ namespace ltc {
 // Largest values allowed, and the effort of the checks that sample; docs/validation.md says what
 // each means and why it stands where it does.
 struct InvariantLimits {
-  double condition_number = 1e6;   // of M: its largest singular value over its smallest
+  double condition_number = 1e7;   // of M: its largest singular value over its smallest
   double zero = 0;                 // entries of S that equation (16) says are zero
   double upward_difference = 0;    // between values at theta = 0 that differ in phi alone
-  double unit_length = 1e-6;       // | |third column of S| - 1 |
+  double unit_length = 1e-6;       // of the third column of S, its length's deviation from 1
   double alignment_degrees = 0.1;  // by which the closed form would turn M further
-  double albedo_error = 2e-4;      // of amplitude and Fresnel against fresh quadrature
   double half_determinant = 0.5;   // relative change of det(S) by rounding S to half precision
-  double loss_excess = 1;          // see check_invariants
-  double neighbour_excess = 1;     // likewise
-  int samples = 512;               // of a lobe, for loss and neighbours
-  int directions = 16;             // that they are projected on
+  double albedo_error = 2e-4;      // of amplitude and Fresnel against fresh quadrature
+  double loss_excess = 1.2;        // LobeMeasures::loss_excess
+  double neighbour_excess = 1.3;   // LobeMeasures::neighbour_excess
   int albedo_points = 16384;       // of the fresh quadrature
-  bool operator==(const InvariantLimits&) const = default;
-};
-
-// What a table's file holds beside the matrices: an .npy holds neither, textures no losses.
-struct TableContents {
-  bool albedo = true;  // amplitude and Fresnel
-  bool loss = true;
+  int samples = 2048;              // of a lobe, for stored loss and neighbours
+  int directions = 16;             // that they are projected on
 };
 
 struct InvariantResult {

@@ -17,8 +17,9 @@ namespace ltc {
 
 // Along each of some directions, the sorted projections of a lobe's samples cut into blocks of
 // equal mass, and the mean of each block. The mean absolute difference of two such lists is the
-// sliced-Wasserstein distance of equation (9) of Aakash et al. 2022 but for what happens inside a
-// block.
+// sliced-Wasserstein distance of equation (9) of Aakash et al. 2022, but for what happens inside a
+// block and in the tails: the first and the last block are left out, since the tails of GGX slopes,
+// as 1/r^4, make nearly all of the noise. So the distance is at most the whole one.
 //
 // Directions, and what is projected on them, are those of the mirror's frame (lobe_frame.h), as
 // offsets from the mirror direction: two lobes seen from different views are compared as if turned
@@ -26,7 +27,7 @@ namespace ltc {
 // alike.
 class LobeQuantiles {
  public:
-  // `samples` (rounded up to a multiple of 16) cosine and lattice samples.
+  // `samples` (rounded up to a multiple of 16) cosine and lattice samples; at least 3 blocks.
   LobeQuantiles(std::size_t samples, std::size_t directions, std::size_t blocks);
 
   std::size_t size() const { return directions_.size() * blocks_; }
@@ -36,7 +37,8 @@ class LobeQuantiles {
   void of_ggx(const LobeFrame& frame, float* quantiles);
   void of_ltc(const LobeFrame& frame, const Eigen::Matrix3d& matrix, float* quantiles);
 
-  // Mean absolute difference, and the mean absolute deviation from the median of each direction.
+  // The distance of two lists; and the mean absolute deviation of a list, tails included, from the
+  // median of each direction.
   double distance(const float* a, const float* b) const;
   double spread(const float* quantiles) const;
 

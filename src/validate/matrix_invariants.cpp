@@ -13,6 +13,8 @@
 namespace ltc {
 
 double condition_number(const Eigen::Matrix3d& matrix) {
+  if (!matrix.allFinite())
+    return std::numeric_limits<double>::quiet_NaN();
   const Eigen::Vector3d singular_values =
       Eigen::JacobiSVD<Eigen::Matrix3d>(matrix).singularValues();
   return singular_values.z() > 0 ? singular_values.x() / singular_values.z()

@@ -7,8 +7,9 @@
 
 namespace ltc {
 
-// Largest singular value over smallest, infinite for a singular matrix; by the singular value
-// decomposition of M itself, since that of M^T M would square it and lose what is looked for.
+// Largest singular value over smallest, infinite for a singular matrix, NaN in, NaN out; by the
+// singular value decomposition of M itself, since that of M^T M would square it and lose what is
+// looked for.
 double condition_number(const Eigen::Matrix3d& matrix);
 
 // Degrees by which align() turns M about z, in [0, 180]; a matrix of negative determinant counts as

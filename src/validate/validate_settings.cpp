@@ -8,6 +8,7 @@
 namespace ltc {
 namespace {
 
+using config::below;
 using config::key;
 using config::Range;
 using Key = config::KeyOf<ValidateSettings>;
@@ -20,18 +21,18 @@ constexpr double unbounded = 1e300;
 // clang-format off
 std::vector<Key> invariant_keys() {
   return {
-      key("invariants.condition_number", [](S& s) { return &s.invariants.condition_number; }, Range{1, unbounded}, "largest condition number of a matrix"),
+      key("invariants.condition_number", [](S& s) { return &s.invariants.condition_number; }, Range{1, unbounded}, "largest condition number of a matrix M"),
       key("invariants.zero", [](S& s) { return &s.invariants.zero; }, Range{0, unbounded}, "largest absolute value where symmetry wants a zero"),
       key("invariants.upward_difference", [](S& s) { return &s.invariants.upward_difference; }, Range{0, unbounded}, "largest difference between values at theta = 0 that differ in phi alone"),
       key("invariants.unit_length", [](S& s) { return &s.invariants.unit_length; }, Range{0, unbounded}, "largest deviation of a third column's length from 1"),
       key("invariants.alignment_degrees", [](S& s) { return &s.invariants.alignment_degrees; }, Range{0, 180}, "largest angle by which alignment would turn a matrix further"),
+      key("invariants.half_determinant", [](S& s) { return &s.invariants.half_determinant; }, below(0, 1), "largest relative change of a determinant by rounding to half precision"),
       key("invariants.albedo_error", [](S& s) { return &s.invariants.albedo_error; }, Range{0, 1}, "largest error of amplitude and Fresnel against fresh quadrature"),
-      key("invariants.half_determinant", [](S& s) { return &s.invariants.half_determinant; }, Range{0, unbounded}, "largest relative change of a determinant by rounding to half precision"),
-      key("invariants.loss_excess", [](S& s) { return &s.invariants.loss_excess; }, Range{0, unbounded}, "largest excess of an entry's loss over the stored one"),
-      key("invariants.neighbour_excess", [](S& s) { return &s.invariants.neighbour_excess; }, Range{0, unbounded}, "largest jump between neighbours over what GGX does"),
-      key("invariants.samples", [](S& s) { return &s.invariants.samples; }, Range{64, 65536}, "samples of a lobe"),
-      key("invariants.directions", [](S& s) { return &s.invariants.directions; }, Range{4, 4096}, "directions that they are projected on"),
+      key("invariants.loss_excess", [](S& s) { return &s.invariants.loss_excess; }, Range{0, unbounded}, "largest loss of a lobe over the stored one"),
+      key("invariants.neighbour_excess", [](S& s) { return &s.invariants.neighbour_excess; }, Range{0, unbounded}, "largest jump between neighbours over that of GGX"),
       key("invariants.albedo_points", [](S& s) { return &s.invariants.albedo_points; }, Range{64, 1 << 20}, "points of the fresh quadrature"),
+      key("invariants.samples", [](S& s) { return &s.invariants.samples; }, Range{256, 65536}, "samples of a lobe, for stored loss and neighbours"),
+      key("invariants.directions", [](S& s) { return &s.invariants.directions; }, Range{4, 4096}, "directions that they are projected on"),
   };
 }
 // clang-format on

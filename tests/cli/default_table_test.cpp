@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "config/config.h"
 #include "core/parallel.h"
@@ -16,6 +18,7 @@
 #include "export/same_tables.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
+#include "support/broken_table.h"
 #include "support/program.h"
 #include "support/table_faults.h"
 #include "validate/compare.h"
@@ -186,6 +189,43 @@ void expect_near_reference(const Table& table) {
   EXPECT_GT(ratios_to(reference, wider, entries).mean, 1.01);
 }
 
+// ---- Soundness ----
+
+std::set<std::string> entries_named(const nlohmann::json& report,
+                                    bool in_check(const std::string&)) {
+  std::set<std::string> entries;
+  for (const nlohmann::json& invariant : report["invariants"])
+    if (in_check(invariant["name"]))
+      for (const nlohmann::json& entry : invariant["failed_entries"])
+        entries.insert(entry["entry"]);
+  return entries;
+}
+
+// `ltcfit validate` passes the table and names each of five broken entries, and no other.
+void expect_sound(const fs::path& folder) {
+  const ProgramResult good = run_ltcfit({"validate", "ltc.h5"}, folder);
+  EXPECT_EQ(good.exit_code, 0) << good.out << good.err;
+  const fs::path bad = folder / "bad.h5";
+  fs::copy_file(folder / "ltc.h5", bad);
+  break_table(bad, bad, "rotated", "5,5,5,5");
+  break_table(bad, bad, "scaled", "2,2,2,2");
+  break_table(bad, bad, "negated", "6,1,3,2");
+  break_table(bad, bad, "singular", "1,6,3,5");
+  break_table(bad, bad, "swapped", "3,3,4,1");
+  const ProgramResult broken = run_ltcfit({"validate", "bad.h5", "--json", "report.json"}, folder);
+  EXPECT_EQ(broken.exit_code, 1) << broken.out;
+  const nlohmann::json report = nlohmann::json::parse(read_file(folder / "report.json"));
+  EXPECT_EQ(
+      entries_named(report, [](const std::string&) { return true; }),
+      (std::set<std::string>{"5,5,5,5", "2,2,2,2", "6,1,3,2", "1,6,3,5", "3,3,4,1", "3,3,5,1"}));
+  // Neighbours alone find what changes the lobe: one of the two that are swapped at least.
+  const std::set<std::string> jumps =
+      entries_named(report, [](const std::string& name) { return name == "neighbours"; });
+  EXPECT_TRUE(jumps.contains("5,5,5,5") && jumps.contains("6,1,3,2") &&
+              (jumps.contains("3,3,4,1") || jumps.contains("3,3,5,1")))
+      << broken.out;
+}
+
 // One test, since the table takes some seconds and tests share nothing.
 TEST(DefaultTable, IsWholeReadableAndNearTheReference) {
   const TemporaryDirectory folder;
@@ -203,6 +243,7 @@ TEST(DefaultTable, IsWholeReadableAndNearTheReference) {
   expect_agreeing_files(table, folder.path());
   expect_readable_by_others(folder.path());
   expect_near_reference(table);
+  expect_sound(folder.path());
 }
 
 }  // namespace

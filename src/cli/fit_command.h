@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The command that looks into an entry of a table.
+#pragma once
+
+#include <string>
+
+#include "table/table.h"
+
+namespace ltc::cli {
+
+// Up to the entry's indices: "ltcfit fit --set fit.seed=2 --entry", with all that the table's own
+// config says beside the defaults, so that it fits the entry as it was made. Empty if the config
+// does not say the table's grid.
+std::string fit_command_stem(const Table& table);
+
+// The whole command; an entry of a table whose config does not say its grid is named by its lobe:
+// "ltcfit fit --alpha-x 0.5 …".
+std::string fit_command(const Table& table, const std::string& stem, std::size_t flat);
+
+}  // namespace ltc::cli

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/validate_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/fit_command.h"
+#include "table/entry_text.h"
+
+namespace ltc::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_shown = 5;  // entries of a failed check on the terminal
+
+std::string table_text(const ValidateReport& report) {
+  const Grid& grid = report.table.grid;
+  const auto shape = grid.shape();
+  const auto skipped =
+      std::count(report.table.status.begin(), report.table.status.end(), Status::skipped);
+  return fmt::format("{}: {}x{}x{}x{} entries, storage {}, {} skipped\n\n", report.file, shape[0],
+                     shape[1], shape[2], shape[3], storage_name(report.table.storage), skipped);
+}
+
+std::string row_text(const Grid& grid, const InvariantResult& result) {
+  const std::string limit =
+      fmt::format("{} {:.4g}", result.at_most ? "at most" : "above", result.limit);
+  if (!result.checked)
+    return fmt::format("{:<20} {:>12}  {:<16} not in the file\n", result.name, "", limit);
+  if (!result.has_worst)
+    return fmt::format("{:<20} {:>12}  {:<16} {}\n", result.name, "", "",
+                       result.passed ? "passed" : "FAILED");
+  // Where all entries have the least value there is, none is worst.
+  const bool none_is_worst = result.passed && result.value == 0;
+  const std::string where = none_is_worst ? ""
+                                          : fmt::format("{} ({})", entry_text(grid, result.worst),
+                                                        lobe_text(grid, result.worst));
+  return fmt::format("{:<20} {:>12.4g}  {:<16} {:<8} {}\n", result.name, result.value, limit,
+                     result.passed ? "passed" : "FAILED", where);
+}
+
+std::string failed_text(const ValidateReport& report, const InvariantResult& result,
+                        const std::string& stem) {
+  if (result.entries.empty())
+    return fmt::format("\n{}: {}\n", result.name, result.message);
+  std::string text =
+      fmt::format("\n{} fails at {} {}, worst first:\n", result.name, result.entries.size(),
+                  result.entries.size() == 1 ? "entry" : "entries");
+  const std::size_t shown = std::min(result.entries.size(), most_shown);
+  for (std::size_t i = 0; i < shown; ++i)
+    text += fmt::format("  {} ({})\n    {}\n", entry_text(report.table.grid, result.entries[i]),
+                        lobe_text(report.table.grid, result.entries[i]),
+                        fit_command(report.table, stem, result.entries[i]));
+  if (shown < result.entries.size())
+    text += fmt::format("  and {} more; --json lists all\n", result.entries.size() - shown);
+  return text;
+}
+
+Json entry_json(const ValidateReport& report, std::size_t flat, const std::string& stem) {
+  const Grid& grid = report.table.grid;
+  return {{"entry", entry_text(grid, flat)},
+          {"lobe", lobe_text(grid, flat)},
+          {"command", fit_command(report.table, stem, flat)}};
+}
+
+Json invariant_json(const ValidateReport& report, const InvariantResult& result,
+                    const std::string& stem) {
+  Json json;
+  json["name"] = result.name;
+  json["checked"] = result.checked;
+  json["passed"] = result.checked ? Json(result.passed) : Json(nullptr);
+  if (result.checked && result.has_worst) {
+    json["value"] = result.value;  // null where it is not finite
+    json["worst"] = entry_json(report, result.worst, stem);
+  }
+  json[result.at_most ? "at_most" : "above"] = result.limit;
+  json["message"] = result.message;
+  json["failed_entries"] = Json::array();
+  for (const std::size_t flat : result.entries)
+    json["failed_entries"].push_back(entry_json(report, flat, stem));
+  return json;
+}
+
+}  // namespace
+
+std::string report_text(const ValidateReport& report) {
+  const std::string stem = fit_command_stem(report.table);
+  std::string text = table_text(report);
+  text +=
+      fmt::format("{:<20} {:>12}  {:<16} {:<8} {}\n", "check", "worst", "allowed", "", "at entry");
+  for (const InvariantResult& result : report.invariants)
+    text += row_text(report.table.grid, result);
+  for (const InvariantResult& result : report.invariants)
+    if (!result.passed)
+      text += failed_text(report, result, stem);
+  return text;
+}
+
+std::string report_json(const ValidateReport& report) {
+  const std::string stem = fit_command_stem(report.table);
+  Json json;
+  json["table"] = report.file;
+  json["passed"] = failure_text(report).empty();
+  json["invariants"] = Json::array();
+  for (const InvariantResult& result : report.invariants)
+    json["invariants"].push_back(invariant_json(report, result, stem));
+  return json.dump(2) + "\n";
+}
+
+std::string failure_text(const ValidateReport& report) {
+  std::string text, others;
+  for (const InvariantResult& result : report.invariants) {
+    if (result.passed)
+      continue;
+    if (text.empty())
+      text = report.file + ": " + result.message;
+    else
+      others += (others.empty() ? "; failed too: " : ", ") + result.name;
+  }
+  return text + others;
+}
+
+}  // namespace ltc::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What the invariants measure in the lobes of a table: whether each is as near to GGX as the table
+// says, and whether it jumps between nodes where GGX does not.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/progress.h"
+#include "table/table.h"
+
+namespace ltc {
+
+struct LobeEffort {
+  std::size_t samples = 0;     // of a lobe
+  std::size_t directions = 0;  // that they are projected on
+};
+
+// One value an entry; NaN for entries that are not judged. Distances are those of LobeQuantiles,
+// `spread` its spread of the GGX lobe.
+struct LobeMeasures {
+  // The distance of LTC and GGX over the stored loss plus a three-hundredth of the spread, which is
+  // what the sample sets differ by. At most 1 for a loss that is right, but for noise.
+  std::vector<double> loss_excess;
+
+  // With d the distance of the LTCs of two adjacent nodes and g that of their GGX lobes, a jump is
+  // d over g plus three hundredths of the smaller spread; adjacent along one axis, one node apart.
+  // A broken entry jumps to all its neighbours, and they to it alone: of the two nodes the jump is
+  // counted to that whose jumps are larger in the mean, and an entry's value is the largest that is
+  // counted to it, 0 if none is.
+  std::vector<double> neighbour_excess;
+};
+
+// Over the entries `judged` is true for, whose matrices must be finite. Throws Interrupted.
+LobeMeasures measure_lobes(const Table& table, const std::vector<bool>& judged,
+                           const LobeEffort& effort, int threads, Progress* progress);
+
+}  // namespace ltc

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "validate/matrix_invariants.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "align/align.h"
+#include "core/angle.h"
+
+namespace ltc {
+namespace {
+
+Eigen::Matrix3d turn(const Eigen::Vector3d& axis, double degrees) {
+  return Eigen::AngleAxisd(radians_of_degrees(degrees), axis.normalized()).toRotationMatrix();
+}
+
+TEST(ConditionNumber, IsTheRatioOfTheSingularValues) {
+  EXPECT_DOUBLE_EQ(condition_number(Eigen::Matrix3d::Identity()), 1);
+  const Eigen::Matrix3d u = turn({1, 2, 3}, 40), v = turn({-1, 1, 0.5}, 100);
+  // Singular values of rounding size relative to the largest: 1e-16 of 1e-10 is six digits.
+  for (const double least : {0.5, 1e-4, 1e-10})
+    EXPECT_NEAR(condition_number(u * Eigen::Vector3d(1, 0.7, least).asDiagonal() * v) * least, 1,
+                1e-5);
+}
+
+TEST(ConditionNumber, IsInfiniteForSingularAndNanForNan) {
+  Eigen::Matrix3d matrix = turn({1, 2, 3}, 40);
+  matrix.row(1).setZero();
+  EXPECT_GT(condition_number(matrix), 1e15);
+  EXPECT_EQ(condition_number(Eigen::Matrix3d::Zero()), std::numeric_limits<double>::infinity());
+  matrix(0, 0) = std::nan("");
+  EXPECT_TRUE(std::isnan(condition_number(matrix)));
+}
+
+TEST(Misalignment, IsTheAngleThatAlignmentTurnsBy) {
+  Eigen::Matrix3d lobe;
+  lobe << 0.5, 0.05, -0.3, 0, 0.3, -0.4, 0.2, 0.1, 0.8;
+  const Eigen::Matrix3d aligned = align(lobe);
+  // What alignment leaves is below a tenth of a milliradian, 0.006 degrees.
+  EXPECT_LT(misalignment_degrees(aligned), 0.006);
+  for (const double degrees : {-170.0, -30.0, 1.0, 90.0})
+    EXPECT_NEAR(misalignment_degrees(aligned * turn({0, 0, 1}, degrees)), std::abs(degrees), 0.02)
+        << degrees;
+}
+
+TEST(Misalignment, AReflectionCountsAsHalfATurn) {
+  const Eigen::Vector3d mirror(1, -1, 1);
+  EXPECT_EQ(misalignment_degrees(Eigen::Matrix3d(mirror.asDiagonal())), 180);
+}
+
+TEST(HalfPrecision, ChangesNoMatrixThatItHolds) {
+  Eigen::Matrix3d matrix;
+  matrix << 0.5, 0, -0.25, 0, 0.375, 0, 1024, 0, 1;
+  EXPECT_EQ(half_determinant_change(matrix), 0);
+}
+
+TEST(HalfPrecision, ChangesOthersByAtMostTheirRounding) {
+  // Each of the three factors is rounded by at most 2^-11.
+  const Eigen::Vector3d diagonal(1.0 / 3, 0.1, 0.7);
+  const double change = half_determinant_change(Eigen::Matrix3d(diagonal.asDiagonal()));
+  EXPECT_GT(change, 0);
+  EXPECT_LT(change, 3.01 * 0x1p-11);
+}
+
+TEST(HalfPrecision, LosesWhatItCannotHold) {
+  // Half the least number that is not zero.
+  Eigen::Matrix3d matrix = Eigen::Vector3d(1, 0x1p-26, 1).asDiagonal();
+  EXPECT_EQ(half_determinant_change(matrix), 1);
+  // Beyond 65504.
+  matrix(1, 1) = 70000;
+  EXPECT_TRUE(std::isnan(half_determinant_change(matrix)));
+  // Two columns nearer to each other than rounding, whose order it turns round.
+  matrix << 1.0001, 1, 0, 1.0006, 1.0004, 0, 0, 0, 1;
+  EXPECT_LT(matrix.determinant(), 0.001);
+  EXPECT_GE(half_determinant_change(matrix), 1);
+}
+
+}  // namespace
+}  // namespace ltc
