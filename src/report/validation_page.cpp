@@ -73,7 +73,7 @@ std::string header(const Validation& validation) {
 }
 
 std::string tiles(const Validation& validation) {
-  const QualityReport& quality = validation.quality;
+  const QualityReport& quality = validation.quality.value();
   const auto passed =
       std::count_if(validation.invariants.begin(), validation.invariants.end(),
                     [](const InvariantResult& result) { return result.checked && result.passed; });
@@ -214,7 +214,7 @@ std::string preformatted(std::string_view text) {
 }
 
 std::string how(const Validation& validation) {
-  const QualitySettings& settings = validation.quality.settings;
+  const QualitySettings& settings = validation.quality.value().settings;
   std::string html = fmt::format(
       "<h2>How this was measured</h2>\n<p>Held-out sliced-Wasserstein losses, exact by sorting: "
       "{} samples and {} directions of its own for each of at most {} nodes, {} and {} for each of "
@@ -240,7 +240,7 @@ bool is_sound(const Validation& validation) {
 
 std::string validation_page(const Validation& validation, const PageSettings& settings, int threads,
                             Progress* progress) {
-  const QualityReport& quality = validation.quality;
+  const QualityReport& quality = validation.quality.value();
   std::string body = header(validation) + tiles(validation) + checks(validation) +
                      figures(quality) + charts(quality) + worst_queries(quality);
   body += pictures_html(lobe_pictures(validation, settings.lobes, threads, progress));

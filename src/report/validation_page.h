@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct Validation {
   std::string file;  // as it was named
   Table table;
   std::vector<InvariantResult> invariants;
-  QualityReport quality;
+  std::optional<QualityReport> quality;  // nothing where it was not asked for
   std::vector<ThresholdCheck> thresholds;
 };
 
@@ -34,7 +35,7 @@ struct PageSettings {
 };
 
 // One HTML file's content, with all pictures within. `threads` and `progress` are for the spheres
-// and lobes; throws Interrupted when a stop is asked for.
+// and lobes; throws Interrupted when a stop is asked for, std::bad_optional_access without quality.
 std::string validation_page(const Validation& validation, const PageSettings& settings, int threads,
                             Progress* progress);
 

@@ -82,7 +82,7 @@ struct LobeToDraw {
 };
 
 std::vector<LobeToDraw> worst_lobes(const Validation& validation, std::size_t most) {
-  const QualityReport& quality = validation.quality;
+  const QualityReport& quality = validation.quality.value();
   std::vector<LobeToDraw> lobes;
   for (const std::size_t i : quality.worst_queries) {
     if (lobes.size() == most)
@@ -127,8 +127,8 @@ std::vector<NamedPicture> table_pictures(const Validation& validation) {
     if (any_number(values))
       pictures.push_back(map_of(validation, values, title, unit, kind, mark));
   };
-  add(validation.quality.node_losses, "Loss at the nodes", "held-out loss / spread of the lobe",
-      ScaleKind::logarithmic, true);
+  add(validation.quality.value().node_losses, "Loss at the nodes",
+      "held-out loss / spread of the lobe", ScaleKind::logarithmic, true);
   add(of_entries(table, [&](std::size_t flat) { return condition_number(table.matrix_at(flat)); }),
       "Condition number of M", "largest / smallest singular value", ScaleKind::logarithmic, true);
   add(of_entries(table, [&](std::size_t flat) { return table.amplitude[flat]; }), "Amplitude",
