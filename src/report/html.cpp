@@ -82,7 +82,7 @@ std::string bar(const BarLayout& layout, std::size_t group, std::size_t series, 
   const double width = layout.bar_width();
   return fmt::format(
       "<rect class=\"series{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>"
-      "<text class=\"value\" x=\"{:.1f}\" y=\"{:.1f}\">{:.{}f}</text>\n",
+      "<text class=\"value\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{:.{}f}</text>\n",
       series, left + 1, layout.bottom - height, width - 2, height, left + width / 2,
       layout.bottom - height - 5, value, decimals);
 }
@@ -167,9 +167,10 @@ std::string bar_chart(const BarChart& chart) {
       if (const double value = chart.series[series].values.at(group); std::isfinite(value))
         svg += bar(layout, group, series, value, chart.decimals);
   for (std::size_t group = 0; group < chart.groups.size(); ++group)
-    svg += fmt::format("<text class=\"label\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-                       layout.left + (static_cast<double>(group) + 0.5) * layout.group_width(),
-                       layout.bottom + 20, escaped(chart.groups[group]));
+    svg += fmt::format(
+        "<text class=\"label\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+        layout.left + (static_cast<double>(group) + 0.5) * layout.group_width(), layout.bottom + 20,
+        escaped(chart.groups[group]));
   svg += fmt::format(
       "<line class=\"axis\" x1=\"{0:.1f}\" y1=\"{2:.1f}\" x2=\"{1:.1f}\" y2=\"{2:.1f}\"/>\n",
       layout.left, layout.right, layout.bottom);

@@ -29,9 +29,9 @@ struct Validation {
 bool is_sound(const Validation& validation);
 
 struct PageSettings {
-  std::size_t lobes = 3;             // worst queries that are drawn
-  std::size_t sphere_size = 200;     // pixels; 0 leaves the spheres out
-  std::size_t sphere_samples = 256;  // of the GGX reference, a pixel
+  std::size_t lobes = 3;              // worst queries that are drawn
+  std::size_t sphere_size = 200;      // pixels; 0 leaves the spheres out
+  std::size_t sphere_samples = 1024;  // of the GGX reference, a pixel
 };
 
 // One HTML file's content, with all pictures within. `threads` and `progress` are for the spheres

@@ -37,6 +37,10 @@ void check(const QualitySettings& settings) {
   require("node directions", settings.node_directions, 1);
   require("query samples", settings.query_samples, 16);
   require("query directions", settings.query_directions, 1);
+  const QueryRange& range = settings.range;
+  if (range.roughness_first > range.roughness_last)
+    throw InputError(fmt::format("queries of roughness from {} to {}; expected a rising range",
+                                 range.roughness_first, range.roughness_last));
 }
 
 AreaLightSettings area_light_settings(const QualitySettings& settings) {
@@ -50,6 +54,13 @@ HeldOutJudge node_judge(const QualitySettings& settings, std::size_t flat) {
 }
 HeldOutJudge query_judge(const QualitySettings& settings, std::size_t query) {
   return HeldOutJudge(settings.query_samples, settings.query_directions, settings.seed + query);
+}
+
+// By judge_pair, which holds one direction at a time: what set_lobe would keep of all of them is
+// megabytes, and asking the system for them anew for every lobe takes as long as the judging.
+double relative_loss(HeldOutJudge judge, const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
+  const PairJudgement judgement = judge.judge_pair(lobe, matrix, matrix);
+  return judgement.loss_a / judgement.spread;
 }
 
 struct NoState {};
@@ -76,9 +87,8 @@ QueryQuality judge_query(const Table& table, const QueryFloor& floor, HeldOutJud
   const LookUp found = look_up(table, floor.lobe);
   if (!found.matrix.allFinite())
     return left_out(QueryState::missing);
-  held_out.set_lobe(floor.lobe);
   area_light.set_lobe(floor.lobe);
-  return {QueryState::judged, held_out.loss(found.matrix) / held_out.spread(),
+  return {QueryState::judged, relative_loss(std::move(held_out), floor.lobe, found.matrix),
           area_light.error(found.matrix), area_light.error(found.matrix, found.amplitude)};
 }
 
@@ -107,9 +117,8 @@ std::vector<double> judge_nodes(const Table& table, const QualitySettings& setti
       "judge nodes", nodes.size(), threads, progress, [] { return NoState(); },
       [&](std::size_t i, NoState&) {
         const std::size_t flat = nodes[i];
-        HeldOutJudge judge = node_judge(settings, flat);
-        judge.set_lobe(table.grid.lobe(table.grid.node(flat)));
-        losses[flat] = judge.loss(table.matrix_at(flat)) / judge.spread();
+        losses[flat] = relative_loss(node_judge(settings, flat),
+                                     table.grid.lobe(table.grid.node(flat)), table.matrix_at(flat));
       });
   return losses;
 }
@@ -159,14 +168,11 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alph
         request.lobe = lobes[i];
         request.seed = entry_seed(settings.floor_fit.seed, i);
         request.progress = progress;
-        HeldOutJudge held_out = query_judge(settings, i);
-        held_out.set_lobe(lobes[i]);
         state.area_light.set_lobe(lobes[i]);
         QueryFloor& floor = floors[i];
         floor.lobe = lobes[i];
         floor.matrix = solver->fit(request, *state.workspace, nullptr).matrix;
-        floor.spread = held_out.spread();
-        floor.relative_loss = held_out.loss(floor.matrix) / floor.spread;
+        floor.relative_loss = relative_loss(query_judge(settings, i), lobes[i], floor.matrix);
         floor.area_light = state.area_light.error(floor.matrix);
       });
   return floors;

@@ -57,7 +57,6 @@ Distribution distribution(const std::vector<double>& values);
 struct QueryFloor {
   GgxLobe lobe;
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
-  double spread = 0;
   double relative_loss = 0;
   AreaLightError area_light;  // with the lobe's own amplitude
 };
