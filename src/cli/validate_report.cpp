@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/fit_command.h"
+#include "cli/quality_report.h"
 #include "table/entry_text.h"
 
 namespace ltc::cli {
@@ -17,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_shown = 5;  // entries of a failed check on the terminal
 
-std::string table_text(const ValidateReport& report) {
+std::string table_text(const Validation& report) {
   const Grid& grid = report.table.grid;
   const auto shape = grid.shape();
   const auto skipped =
@@ -43,7 +44,7 @@ std::string row_text(const Grid& grid, const InvariantResult& result) {
                      result.passed ? "passed" : "FAILED", where);
 }
 
-std::string failed_text(const ValidateReport& report, const InvariantResult& result,
+std::string failed_text(const Validation& report, const InvariantResult& result,
                         const std::string& stem) {
   if (result.entries.empty())
     return fmt::format("\n{}: {}\n", result.name, result.message);
@@ -60,14 +61,14 @@ std::string failed_text(const ValidateReport& report, const InvariantResult& res
   return text;
 }
 
-Json entry_json(const ValidateReport& report, std::size_t flat, const std::string& stem) {
+Json entry_json(const Validation& report, std::size_t flat, const std::string& stem) {
   const Grid& grid = report.table.grid;
   return {{"entry", entry_text(grid, flat)},
           {"lobe", lobe_text(grid, flat)},
           {"command", fit_command(report.table, stem, flat)}};
 }
 
-Json invariant_json(const ValidateReport& report, const InvariantResult& result,
+Json invariant_json(const Validation& report, const InvariantResult& result,
                     const std::string& stem) {
   Json json;
   json["name"] = result.name;
@@ -87,7 +88,7 @@ Json invariant_json(const ValidateReport& report, const InvariantResult& result,
 
 }  // namespace
 
-std::string report_text(const ValidateReport& report) {
+std::string report_text(const Validation& report) {
   const std::string stem = fit_command_stem(report.table);
   std::string text = table_text(report);
   text +=
@@ -97,10 +98,12 @@ std::string report_text(const ValidateReport& report) {
   for (const InvariantResult& result : report.invariants)
     if (!result.passed)
       text += failed_text(report, result, stem);
+  if (report.quality)
+    text += quality_text(*report.quality, report.thresholds);
   return text;
 }
 
-std::string report_json(const ValidateReport& report) {
+std::string report_json(const Validation& report) {
   const std::string stem = fit_command_stem(report.table);
   Json json;
   json["table"] = report.file;
@@ -108,10 +111,12 @@ std::string report_json(const ValidateReport& report) {
   json["invariants"] = Json::array();
   for (const InvariantResult& result : report.invariants)
     json["invariants"].push_back(invariant_json(report, result, stem));
+  if (report.quality)
+    json["quality"] = quality_json(*report.quality, report.thresholds);
   return json.dump(2) + "\n";
 }
 
-std::string failure_text(const ValidateReport& report) {
+std::string failure_text(const Validation& report) {
   std::string text, others;
   for (const InvariantResult& result : report.invariants) {
     if (result.passed)
@@ -120,6 +125,14 @@ std::string failure_text(const ValidateReport& report) {
       text = report.file + ": " + result.message;
     else
       others += (others.empty() ? "; failed too: " : ", ") + result.name;
+  }
+  for (const ThresholdCheck& check : report.thresholds) {
+    if (check.passed)
+      continue;
+    if (text.empty())
+      text = report.file + ": " + failure_line(check);
+    else
+      others += (others.empty() ? "; failed too: " : ", ") + check.key;
   }
   return text + others;
 }

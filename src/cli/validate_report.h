@@ -4,22 +4,15 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "validate/invariants.h"
+#include "report/validation_page.h"
 
 namespace ltc::cli {
 
-struct ValidateReport {
-  std::string file;
-  Table table;
-  std::vector<InvariantResult> invariants;
-};
-
-std::string report_text(const ValidateReport& report);
-std::string report_json(const ValidateReport& report);  // with a line break at its end
+std::string report_text(const Validation& report);
+std::string report_json(const Validation& report);  // with a line break at its end
 
 // Names every check that failed, the first with its worst entry; empty if all passed.
-std::string failure_text(const ValidateReport& report);
+std::string failure_text(const Validation& report);
 
 }  // namespace ltc::cli

@@ -35,12 +35,31 @@ std::vector<Key> invariant_keys() {
       key("invariants.directions", [](S& s) { return &s.invariants.directions; }, Range{4, 4096}, "directions that they are projected on"),
   };
 }
+
+std::vector<Key> quality_keys() {
+  return {
+      key("quality.node_loss", [](S& s) { return &s.thresholds.node_loss; }, Range{0, unbounded}, "largest mean relative loss at nodes"),
+      key("quality.query_loss", [](S& s) { return &s.thresholds.query_loss; }, Range{0, unbounded}, "largest mean relative loss between nodes"),
+      key("quality.area_light_error", [](S& s) { return &s.thresholds.area_light_error; }, Range{0, unbounded}, "largest mean error under area lights"),
+      key("quality.nodes", [](S& s) { return &s.quality.most_nodes; }, Range{0, 1 << 24}, "nodes judged, drawn at random where the table has more"),
+      key("quality.node_samples", [](S& s) { return &s.quality.node_samples; }, Range{64, 1 << 20}, "samples of a node's lobe"),
+      key("quality.node_directions", [](S& s) { return &s.quality.node_directions; }, Range{4, 4096}, "directions that they are projected on"),
+      key("quality.queries", [](S& s) { return &s.quality.queries; }, Range{0, 1 << 20}, "random lobes that the table is asked for"),
+      key("quality.roughness_first", [](S& s) { return &s.quality.range.roughness_first; }, Range{0, 1}, "least perceptual roughness of queries"),
+      key("quality.roughness_last", [](S& s) { return &s.quality.range.roughness_last; }, Range{0, 1}, "largest perceptual roughness of queries"),
+      key("quality.query_samples", [](S& s) { return &s.quality.query_samples; }, Range{64, 1 << 20}, "samples of a query's lobe"),
+      key("quality.query_directions", [](S& s) { return &s.quality.query_directions; }, Range{4, 4096}, "directions that they are projected on"),
+      key("quality.quads", [](S& s) { return &s.quality.quads; }, Range{1, 4096}, "rectangular lights of a query"),
+      key("quality.quad_samples", [](S& s) { return &s.quality.quad_samples; }, Range{64, 1 << 20}, "samples of GGX that their light is measured with"),
+      key("quality.seed", [](S& s) { return &s.quality.seed; }, Range{0, 9007199254740992.0}, "of nodes, queries, samples, directions and lights"),
+  };
+}
 // clang-format on
 
 const std::vector<Key>& keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> keys;
-    for (const std::vector<Key>& section : {invariant_keys()})
+    for (const std::vector<Key>& section : {invariant_keys(), quality_keys()})
       keys.insert(keys.end(), section.begin(), section.end());
     return keys;
   }();

@@ -11,12 +11,16 @@
 
 #include "config/config.h"
 #include "validate/invariants.h"
+#include "validate/quality.h"
+#include "validate/quality_summary.h"
 
 namespace ltc {
 
 // One member a section of the file.
 struct ValidateSettings {
   InvariantLimits invariants;
+  QualitySettings quality;
+  QualityThresholds thresholds;  // in section quality too
 };
 
 // The defaults, then what `file` says if there is one, then the overrides in order, as load_config.

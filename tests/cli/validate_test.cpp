@@ -66,8 +66,8 @@ std::set<std::string> failed_names(const Json& report) {
 
 TEST_F(Validate, PassesAGoodTable) {
   const TemporaryDirectory folder;
-  const ProgramResult result =
-      run_ltcfit({"validate", good().string(), "--json", "new/report.json"}, folder.path());
+  const ProgramResult result = run_ltcfit(
+      {"validate", "--no-quality", good().string(), "--json", "new/report.json"}, folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(result.out.find("FAILED"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find(good().string() + ": 4x4x4x4 entries, storage matrix, 0 skipped\n"),
@@ -93,7 +93,8 @@ TEST_F(Validate, PassesAGoodTable) {
 TEST_F(Validate, TheCommandOfAnEntryReproducesIt) {
   const TemporaryDirectory folder;
   break_table(good(), folder / "bad.h5", "scaled", "2,1,1,2");
-  const ProgramResult result = run_ltcfit({"validate", (folder / "bad.h5").string()});
+  const ProgramResult result =
+      run_ltcfit({"validate", "--no-quality", (folder / "bad.h5").string()});
   ASSERT_EQ(result.exit_code, 1) << result.err;
   const std::size_t begin = result.out.find("ltcfit fit ");
   ASSERT_NE(begin, std::string::npos) << result.out;
@@ -146,7 +147,7 @@ TEST_F(Validate, NamesTheEntryThatIsBroken) {
     const TemporaryDirectory folder;
     break_table(good(), folder / "bad.h5", c.fault, "2,1,1,2");
     const ProgramResult result =
-        run_ltcfit({"validate", "bad.h5", "--json", "report.json"}, folder.path());
+        run_ltcfit({"validate", "--no-quality", "bad.h5", "--json", "report.json"}, folder.path());
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_NE(result.out.find(c.named_first + " fails at "), std::string::npos) << result.out;
     const Json report = Json::parse(read_file(folder / "report.json"));
@@ -169,9 +170,11 @@ TEST_F(Validate, NamesTheEntryThatIsBroken) {
 }
 
 TEST_F(Validate, SaysWhatAFileDoesNotHold) {
-  const ProgramResult array = run_ltcfit({"validate", in_folder("ltc.npy").string()});
+  const ProgramResult array =
+      run_ltcfit({"validate", "--no-quality", in_folder("ltc.npy").string()});
   EXPECT_EQ(array.exit_code, 0) << array.out << array.err;
-  const ProgramResult texture = run_ltcfit({"validate", in_folder("ltc.0.exr").string()});
+  const ProgramResult texture =
+      run_ltcfit({"validate", "--no-quality", in_folder("ltc.0.exr").string()});
   EXPECT_EQ(texture.exit_code, 0) << texture.out << texture.err;
   const auto unchecked = [](const std::string& out) {
     std::size_t count = 0;
@@ -188,15 +191,15 @@ TEST_F(Validate, LimitsComeFromTheConfig) {
   const fs::path config =
       folder.write("strict.toml", "[invariants]\ncondition_number = 10.0\nsamples = 1024\n");
   const ProgramResult strict =
-      run_ltcfit({"validate", good().string(), "--config", config.string()});
+      run_ltcfit({"validate", "--no-quality", good().string(), "--config", config.string()});
   EXPECT_EQ(strict.exit_code, 1);
   EXPECT_NE(strict.err.find("condition number of entry "), std::string::npos) << strict.err;
   EXPECT_NE(strict.err.find("allowed at most 10\n"), std::string::npos) << strict.err;
   EXPECT_NE(strict.out.find(" more; --json lists all\n"), std::string::npos) << strict.out;
-  const ProgramResult shipped = run_ltcfit(
-      {"validate", good().string(), "--config", LTCFIT_SOURCE_DIR "/config/validate.toml"});
+  const ProgramResult shipped = run_ltcfit({"validate", "--no-quality", good().string(), "--config",
+                                            LTCFIT_SOURCE_DIR "/config/validate.toml"});
   EXPECT_EQ(shipped.exit_code, 0) << shipped.err;
-  EXPECT_EQ(shipped.out, run_ltcfit({"validate", good().string()}).out);
+  EXPECT_EQ(shipped.out, run_ltcfit({"validate", "--no-quality", good().string()}).out);
 }
 
 TEST_F(Validate, TakesATableOfAScene) {
@@ -205,7 +208,8 @@ TEST_F(Validate, TakesATableOfAScene) {
   std::vector<std::string> arguments = {"generate", "--scene", "scene.toml"};
   arguments.insert(arguments.end(), four_nodes.begin(), four_nodes.end());
   ASSERT_EQ(run_ltcfit(arguments, folder.path()).exit_code, 0);
-  const ProgramResult result = run_ltcfit({"validate", "out/ltc.h5"}, folder.path());
+  const ProgramResult result =
+      run_ltcfit({"validate", "--no-quality", "out/ltc.h5"}, folder.path());
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(result.out.find(" 0 skipped"), std::string::npos) << result.out;
 }
@@ -233,7 +237,7 @@ TEST(ValidatePublished, TheMirroredMatricesAreFound) {
     GTEST_SKIP() << "no " << file << "; set LTCFIT_REFERENCE_DIR to the folder that has it";
   const TemporaryDirectory folder;
   const ProgramResult result =
-      run_ltcfit({"validate", file.string(), "--json", "r.json"}, folder.path());
+      run_ltcfit({"validate", "--no-quality", file.string(), "--json", "r.json"}, folder.path());
   EXPECT_EQ(result.exit_code, 1) << result.err;
   const Json report = Json::parse(read_file(folder / "r.json"));
   EXPECT_EQ(failed_entries(named(report, "determinant")).size(), 48u);

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/quality_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/angle.h"
+
+namespace ltc::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string row_text(const char* what, const Distribution& d) {
+  if (d.count == 0)
+    return fmt::format("{:<36} {:>6}\n", what, 0);
+  return fmt::format("{:<36} {:>6} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}\n", what,
+                     d.count, d.mean, d.standard_error, d.p50, d.p95, d.p99, d.largest);
+}
+
+std::string figures_text(const QualityReport& quality) {
+  return fmt::format("\n{:<36} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "quality", "judged",
+                     "mean", "+-", "median", "95 %", "99 %", "largest") +
+         row_text("loss / spread at nodes", quality.nodes) +
+         row_text("loss / spread between nodes", quality.query_losses) +
+         row_text("  floor: each query fitted", quality.floor_losses) +
+         row_text("area lights, shape alone", quality.area_light) +
+         row_text("  with the table's amplitude", quality.area_light_with_amplitude) +
+         row_text("  floor: each query fitted", quality.floor_area_light) +
+         fmt::format("  noise of the GGX that they are judged by: {:.1e} a light\n",
+                     quality.area_light_noise);
+}
+
+std::string left_out_text(const QualityReport& quality) {
+  std::string text;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0)
+      text += fmt::format("{} of {} queries {}\n", count, quality.queries.size(), what);
+  };
+  add(quality.queries_missing, "need an entry that the table has not, and are left out");
+  add(quality.queries_outside, "are beyond the table's axes, and are left out");
+  add(quality.queries_singular, "get a matrix without an inverse; area lights leave them out");
+  return text;
+}
+
+std::string bands_text(const QualityReport& quality) {
+  std::string text;
+  for (const Bands& bands : quality.bands) {
+    if (bands.bands.empty())
+      continue;
+    text += fmt::format("\n{:<24} {:>8} {:>8} {:>8} {:>12} {:>8}\n", "by " + bands.parameter,
+                        "queries", "loss", "floor", "area lights", "floor");
+    for (const Band& band : bands.bands)
+      text += fmt::format("  {:<22} {:>8} {:>8.3f} {:>8.3f} {:>12.4f} {:>8.4f}\n",
+                          band_text(bands, band), band.queries, band.relative_loss, band.floor_loss,
+                          band.area_light_error, band.floor_area_light_error);
+  }
+  return text;
+}
+
+std::string worst_text(const QualityReport& quality) {
+  if (quality.worst_queries.empty())
+    return "";
+  std::string text = "\nqueries furthest above the floor\n";
+  for (const std::size_t i : quality.worst_queries)
+    text += fmt::format("  loss {:.3f}, floor {:.3f}; area lights {:.4f}, floor {:.4f}\n    {}\n",
+                        quality.queries[i].relative_loss, quality.floors[i].relative_loss,
+                        quality.queries[i].area_light.mean_absolute,
+                        quality.floors[i].area_light.mean_absolute,
+                        query_command(quality.floors[i].lobe));
+  return text;
+}
+
+std::string thresholds_text(const std::vector<ThresholdCheck>& thresholds) {
+  std::string text = fmt::format("\n{:<36} {:>8}  {}\n", "threshold", "mean", "allowed");
+  for (const ThresholdCheck& check : thresholds)
+    text += std::isnan(check.value)
+                ? fmt::format("{:<36} {:>8}  at most {:<8.4g} not judged\n", check.what, "",
+                              check.limit)
+                : fmt::format("{:<36} {:>8.4f}  at most {:<8.4g} {}\n", check.what, check.value,
+                              check.limit, check.passed ? "passed" : "FAILED " + check.key);
+  return text;
+}
+
+Json json_of(const Distribution& d) {
+  return {{"count", d.count},
+          {"mean", d.mean},
+          {"standard_error", d.standard_error},
+          {"p50", d.p50},
+          {"p95", d.p95},
+          {"p99", d.p99},
+          {"largest", d.largest},
+          {"largest_index", d.largest_index}};
+}
+
+Json json_of(const Bands& bands) {
+  Json json;
+  json["parameter"] = bands.parameter;
+  json["bands"] = Json::array();
+  for (const Band& band : bands.bands)
+    json["bands"].push_back({{"first", band.first},
+                             {"last", band.last},
+                             {"queries", band.queries},
+                             {"loss", band.relative_loss},
+                             {"floor_loss", band.floor_loss},
+                             {"area_light_error", band.area_light_error},
+                             {"floor_area_light_error", band.floor_area_light_error}});
+  return json;
+}
+
+Json query_json(const QueryFloor& floor, const QueryQuality& query) {
+  constexpr const char* states[] = {"judged", "outside", "missing"};
+  const GgxLobe& lobe = floor.lobe;
+  return {{"alpha_x", lobe.alpha_x},
+          {"alpha_y", lobe.alpha_y},
+          {"theta_degrees", lobe.theta_radians / radians_per_degree},
+          {"phi_degrees", lobe.phi_radians / radians_per_degree},
+          {"state", states[static_cast<std::size_t>(query.state)]},
+          {"loss", query.relative_loss},
+          {"floor_loss", floor.relative_loss},
+          {"area_light_error", query.area_light.mean_absolute},
+          {"area_light_error_with_amplitude", query.area_light_with_amplitude.mean_absolute},
+          {"floor_area_light_error", floor.area_light.mean_absolute},
+          {"area_light_noise", floor.area_light.standard_error},
+          {"command", query_command(lobe)}};
+}
+
+}  // namespace
+
+std::string quality_text(const QualityReport& quality,
+                         const std::vector<ThresholdCheck>& thresholds) {
+  return figures_text(quality) + left_out_text(quality) + bands_text(quality) +
+         worst_text(quality) + thresholds_text(thresholds);
+}
+
+Json quality_json(const QualityReport& quality, const std::vector<ThresholdCheck>& thresholds) {
+  Json json;
+  for (const ThresholdCheck& check : thresholds)
+    json["thresholds"].push_back(
+        {{"key", check.key},
+         {"what", check.what},
+         {"value", check.value},
+         {"at_most", check.limit},
+         {"passed", std::isnan(check.value) ? Json(nullptr) : Json(check.passed)}});
+  json["node_loss"] = json_of(quality.nodes);
+  json["nodes_without_values"] = quality.nodes_without_values;
+  json["query_loss"] = json_of(quality.query_losses);
+  json["floor_loss"] = json_of(quality.floor_losses);
+  json["area_light_error"] = json_of(quality.area_light);
+  json["area_light_error_with_amplitude"] = json_of(quality.area_light_with_amplitude);
+  json["floor_area_light_error"] = json_of(quality.floor_area_light);
+  json["area_light_noise"] = quality.area_light_noise;
+  json["queries_missing"] = quality.queries_missing;
+  json["queries_outside"] = quality.queries_outside;
+  json["queries_singular"] = quality.queries_singular;
+  for (const Bands& bands : quality.bands)
+    json["by"].push_back(json_of(bands));
+  json["worst_queries"] = quality.worst_queries;
+  json["queries"] = Json::array();
+  for (std::size_t i = 0; i < quality.queries.size(); ++i)
+    json["queries"].push_back(query_json(quality.floors[i], quality.queries[i]));
+  json["node_losses"] = quality.node_losses;
+  return json;
+}
+
+}  // namespace ltc::cli

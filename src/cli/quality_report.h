@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// How validate writes the quality of a table.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "validate/quality_summary.h"
+
+namespace ltc::cli {
+
+std::string quality_text(const QualityReport& quality,
+                         const std::vector<ThresholdCheck>& thresholds);
+
+// All figures, every query with its floor; null where there is no number.
+nlohmann::ordered_json quality_json(const QualityReport& quality,
+                                    const std::vector<ThresholdCheck>& thresholds);
+
+}  // namespace ltc::cli

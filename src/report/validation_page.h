@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The page that a person opens to decide whether a table is sound and good.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "table/table.h"
+#include "validate/invariants.h"
+#include "validate/quality.h"
+#include "validate/quality_summary.h"
+
+namespace ltc {
+
+// What validate found out about a table.
+struct Validation {
+  std::string file;  // as it was named
+  Table table;
+  std::vector<InvariantResult> invariants;
+  std::optional<QualityReport> quality;  // nothing where it was not asked for
+  std::vector<ThresholdCheck> thresholds;
+};
+
+// Whether every invariant holds and no threshold is passed.
+bool is_sound(const Validation& validation);
+
+struct PageSettings {
+  std::size_t lobes = 3;              // worst queries that are drawn
+  std::size_t sphere_size = 200;      // pixels; 0 leaves the spheres out
+  std::size_t sphere_samples = 1024;  // of the GGX reference, a pixel
+};
+
+// One HTML file's content, with all pictures within. `threads` and `progress` are for the spheres
+// and lobes; throws Interrupted when a stop is asked for, std::bad_optional_access without quality.
+std::string validation_page(const Validation& validation, const PageSettings& settings, int threads,
+                            Progress* progress);
+
+}  // namespace ltc

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "report/validation_pictures.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "core/parallel.h"
+#include "render/missing_albedo.h"
+#include "render/sphere_picture.h"
+#include "table/entry_text.h"
+#include "table/lookup.h"
+#include "validate/lobe_picture.h"
+#include "validate/table_map.h"
+
+namespace ltc {
+namespace {
+
+using picture::ScaleKind;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t lobe_side = 200;  // pixels that a lobe's density is computed for
+constexpr int lobe_width = 1400;        // of its picture
+
+std::vector<double> of_entries(const Table& table, auto&& value) {
+  std::vector<double> values(table.grid.size(), nan);
+  for (std::size_t flat = 0; flat < values.size(); ++flat)
+    if (has_values(table.status[flat]))
+      values[flat] = value(flat);
+  return values;
+}
+
+double condition_number(const Eigen::Matrix3d& matrix) {
+  if (!matrix.allFinite())
+    return nan;
+  const Eigen::Vector3d values = matrix.jacobiSvd().singularValues();
+  return values[0] / values[2];
+}
+
+bool any_number(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+picture::CellMark mark_of(const Grid& grid, std::size_t flat) {
+  const NodeIndex node = grid.node(flat);
+  return {{node.alpha, node.lambda, node.theta, node.phi}, entry_text(grid, flat)};
+}
+
+// A map with a scale about the values; the largest one ringed if `mark`.
+NamedPicture map_of(const Validation& validation, const std::vector<double>& values,
+                    const std::string& title, const std::string& unit, ScaleKind kind, bool mark) {
+  const Grid& grid = validation.table.grid;
+  const Distribution figures = distribution(values);
+  picture::ColorScale colors{.scale = picture::Scale::around(values, kind, 0), .title = unit};
+  picture::TiledMap map = table_map(grid, values, colors);
+  map.words.title = title;
+  const std::string caption =
+      fmt::format("Mean {:.4g}, 95th percentile {:.4g}, largest {:.4g} at {}", figures.mean,
+                  figures.p95, figures.largest, entry_text(grid, figures.largest_index));
+  if (mark)
+    map.marks = {mark_of(grid, figures.largest_index)};
+  return {title, caption + " (" + lobe_text(grid, figures.largest_index) + ").",
+          picture::render(map)};
+}
+
+std::string lobe_words(const GgxLobe& lobe) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  return fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", lobe.alpha_x,
+                     lobe.alpha_y, lobe.theta_radians * degrees, lobe.phi_radians * degrees);
+}
+
+struct LobeToDraw {
+  GgxLobe lobe;
+  Eigen::Matrix3d matrix;
+  std::string title, words;
+};
+
+std::vector<LobeToDraw> worst_lobes(const Validation& validation, std::size_t most) {
+  const QualityReport& quality = validation.quality.value();
+  std::vector<LobeToDraw> lobes;
+  for (const std::size_t i : quality.worst_queries) {
+    if (lobes.size() == most)
+      break;
+    const QueryFloor& floor = quality.floors[i];
+    lobes.push_back(
+        {floor.lobe, look_up(validation.table, floor.lobe).matrix,
+         fmt::format("Query {}: {:.3f} of the lobe's spread, floor {:.3f}", i,
+                     quality.queries[i].relative_loss, floor.relative_loss),
+         fmt::format("LTC as the table's look-up gives it; error under area lights {:.4f}, floor "
+                     "{:.4f}",
+                     quality.queries[i].area_light.mean_absolute, floor.area_light.mean_absolute)});
+  }
+  return lobes;
+}
+
+std::vector<LobeToDraw> failing_entries(const Validation& validation, std::size_t most) {
+  const Table& table = validation.table;
+  std::vector<std::size_t> drawn;
+  std::vector<LobeToDraw> lobes;
+  for (const InvariantResult& result : validation.invariants) {
+    if (result.passed || result.entries.empty() || lobes.size() == most)
+      continue;
+    const std::size_t flat = result.entries.front();
+    if (std::find(drawn.begin(), drawn.end(), flat) != drawn.end())
+      continue;
+    drawn.push_back(flat);
+    lobes.push_back({table.grid.lobe(table.grid.node(flat)), table.matrix_at(flat),
+                     fmt::format("Entry {} fails: {}", entry_text(table.grid, flat), result.name),
+                     result.message});
+  }
+  return lobes;
+}
+
+}  // namespace
+
+std::vector<NamedPicture> table_pictures(const Validation& validation) {
+  const Table& table = validation.table;
+  std::vector<NamedPicture> pictures;
+  const auto add = [&](const std::vector<double>& values, const char* title, const char* unit,
+                       ScaleKind kind, bool mark) {
+    if (any_number(values))
+      pictures.push_back(map_of(validation, values, title, unit, kind, mark));
+  };
+  add(validation.quality.value().node_losses, "Loss at the nodes",
+      "held-out loss / spread of the lobe", ScaleKind::logarithmic, true);
+  add(of_entries(table, [&](std::size_t flat) { return condition_number(table.matrix_at(flat)); }),
+      "Condition number of M", "largest / smallest singular value", ScaleKind::logarithmic, true);
+  add(of_entries(table, [&](std::size_t flat) { return table.amplitude[flat]; }), "Amplitude",
+      "light reflected with F = 1", ScaleKind::linear, false);
+  add(of_entries(table, [&](std::size_t flat) { return table.fresnel[flat]; }), "Fresnel term",
+      "light reflected, weighted by (1 − v·h)⁵", ScaleKind::linear, false);
+  return pictures;
+}
+
+std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_t lobes,
+                                        int threads, Progress* progress) {
+  std::vector<LobeToDraw> to_draw = failing_entries(validation, lobes);
+  for (const LobeToDraw& lobe : worst_lobes(validation, lobes))
+    to_draw.push_back(lobe);
+  std::vector<std::optional<picture::Canvas>> canvases(to_draw.size());
+  struct NoState {};
+  parallel_for_each<NoState>(
+      "draw lobes", to_draw.size(), threads, progress, [] { return NoState(); },
+      [&](std::size_t i, NoState&) {
+        const LobeToDraw& lobe = to_draw[i];
+        picture::Words words{lobe.title, lobe_words(lobe.lobe), {lobe.words}};
+        canvases[i] = render_lobe(lobe_panels(lobe.lobe, lobe.matrix, words, lobe_side),
+                                  picture::Chart{}, lobe_width);
+      });
+  std::vector<NamedPicture> pictures;
+  for (std::size_t i = 0; i < to_draw.size(); ++i)
+    pictures.push_back({to_draw[i].title, lobe_words(to_draw[i].lobe), std::move(*canvases[i])});
+  return pictures;
+}
+
+NamedPicture sphere_picture(const Validation& validation, const PageSettings& settings, int threads,
+                            Progress* progress) {
+  Table table = validation.table;
+  fill_missing_albedo(table);
+  const Table* const pointer = &table;
+  SphereSettings sphere;
+  sphere.size = settings.sphere_size;
+  sphere.samples = settings.sphere_samples;
+  SpherePicture content;
+  content.title = "Spheres under a rectangular light";
+  content.tables = {"LTC"};
+  content.caption = {
+      fmt::format("GGX by multiple importance sampling, {} samples a pixel; errors "
+                  "are in units of the light's radiance.",
+                  sphere.samples)};
+  for (const Material& material : {Material{0.05, 0.25, 1}, Material{0.5, 0.02, 1},
+                                   Material{0.5, 0.25, 1}, Material{0.5, 1, 1}})
+    content.rows.push_back(
+        {material, render_sphere({&pointer, 1}, material, sphere,
+                                 fmt::format("render {}, {}", material.alpha_x, material.alpha_y),
+                                 threads, progress)});
+  return {content.title, "The materials of figure 14 of Aakash et al. 2022.", draw(content)};
+}
+
+}  // namespace ltc

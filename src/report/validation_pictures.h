@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The pictures of a validation page.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "picture/canvas.h"
+#include "report/validation_page.h"
+
+namespace ltc {
+
+struct NamedPicture {
+  std::string title;
+  std::string caption;
+  picture::Canvas canvas;
+};
+
+// Over the whole table: relative loss, amplitude, Fresnel term and condition number; those that the
+// table has no values of are left out.
+std::vector<NamedPicture> table_pictures(const Validation& validation);
+
+// GGX, LTC and difference of the worst queries as the table looks them up, then of entries that
+// break an invariant.
+std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_t lobes,
+                                        int threads, Progress* progress);
+
+// The spheres of figure 14 of Aakash et al. 2022 by the table.
+NamedPicture sphere_picture(const Validation& validation, const PageSettings& settings, int threads,
+                            Progress* progress);
+
+}  // namespace ltc

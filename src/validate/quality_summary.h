@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// From what was judged one by one to the figures of a quality report, and the limits set to them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validate/quality.h"
+
+namespace ltc {
+
+// Sets everything in the report that follows from its node losses, floors and queries.
+void summarize_quality(QualityReport& report);
+
+// The largest means that a table may have; each is compared with what the report has by that name.
+struct QualityThresholds {
+  double node_loss = 0.07;
+  double query_loss = 0.13;
+  double area_light_error = 0.026;
+};
+
+struct ThresholdCheck {
+  std::string key;   // as in the settings' file
+  std::string what;  // in words
+  double value = 0;  // NaN where nothing could be judged
+  double limit = 0;
+  bool passed = true;  // so does what could not be judged
+};
+std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
+                                             const QualityThresholds& thresholds);
+
+// "mean relative loss between nodes is 0.31, above quality.query_loss = 0.13".
+std::string failure_line(const ThresholdCheck& check);
+
+// "0.1–0.2", "> 75°".
+std::string band_text(const Bands& bands, const Band& band);
+
+// The command that fits this very lobe: "ltcfit fit --alpha-x 0.04 …".
+std::string query_command(const GgxLobe& lobe);
+
+}  // namespace ltc
