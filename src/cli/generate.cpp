@@ -26,6 +26,7 @@
 #include "export/npy.h"
 #include "export/reader.h"
 #include "scene/coverage.h"
+#include "scene/query_ranges.h"
 #include "scene/scene.h"
 #include "table/extend.h"
 
@@ -108,13 +109,23 @@ struct Work {
   std::vector<bool> needed;  // by the scene
   std::vector<bool> to_fit;  // needed and not in the existing table
   std::optional<Table> existing;
+  std::vector<QueryRange> asked;  // by the scene's materials; none without a scene
 };
 
 Work plan_work(const Arguments& arguments, const Config& config) {
   Work work;
-  work.needed = arguments.scene.empty() ? std::vector<bool>(config.grid.size(), true)
-                                        : needed_entries(load_scene(arguments.scene), config.grid);
+  work.needed.assign(config.grid.size(), true);
+  if (!arguments.scene.empty()) {
+    const Scene scene = load_scene(arguments.scene);
+    work.needed = needed_entries(scene, config.grid);
+    work.asked = query_ranges(scene);
+  }
   work.to_fit = work.needed;
+  if (!arguments.extend.empty() && config.refine.steps > 0)
+    throw InputError(fmt::format(
+        "refine.steps = {} cannot be had with --extend, which keeps {} bit for bit; expected 0, or "
+        "a whole new table",
+        config.refine.steps, arguments.extend));
   if (!arguments.extend.empty()) {
     work.existing = read_table(arguments.extend);
     require_extendable(*work.existing, arguments.extend, config.grid, config.storage, config.brdf);
@@ -159,7 +170,7 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
   CheckpointKeeper keeper(task, *journal, progress);
   keeper.guard([&] {
     table = generate_table(config, work.to_fit, arguments.threads, &progress, &report.generate,
-                           journal.get());
+                           journal.get(), work.asked);
     keeper.close();
     if (work.existing)
       table = extended(*work.existing, table);

@@ -60,6 +60,22 @@ std::string scene_text(const Table& table, const RunReport& report) {
   return text;
 }
 
+// What refinement has gained; nothing where none was asked for.
+std::string refine_text(const GenerateReport& made) {
+  if (!made.refine)
+    return "";
+  const RefineReport& report = *made.refine;
+  if (!report.kept)
+    return fmt::format(
+        "refined  not: {} steps over {} queries did not better {:.4f}, the mean relative loss of "
+        "held-out queries\n",
+        report.steps, report.queries, report.loss_before);
+  return fmt::format(
+      "refined  {} steps over {} queries: mean relative loss of held-out queries {:.4f}, was "
+      "{:.4f}\n         the commands below show entries as they were before\n",
+      report.steps, report.queries, report.loss_after, report.loss_before);
+}
+
 std::string worst_text(const Table& table, const TableSummary& summary,
                        const std::string& debug_command) {
   std::string text;
@@ -79,6 +95,7 @@ std::string summary_text(const Table& table, const RunReport& report) {
                       static_cast<double>(report.peak_memory_bytes) / 1e6);
   text += entries_text(summary);
   text += scene_text(table, report);
+  text += refine_text(report.generate);
   text += loss_text(summary);
   text += fmt::format("symmetry largest value zeroed {:.1e}, at entry {}\n",
                       report.generate.largest_zeroed,

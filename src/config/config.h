@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fit/refine_settings.h"
 #include "fit/settings.h"
 #include "table/grid.h"
 #include "table/storage.h"
@@ -30,6 +31,7 @@ struct Config {
   Storage storage = Storage::matrix;
   Grid grid = Grid::paper();
   FitSettings fit;
+  RefineSettings refine;
   OutputSettings output;
 };
 

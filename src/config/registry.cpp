@@ -90,6 +90,25 @@ std::vector<Key> fit_keys() {
   };
 }
 
+std::vector<Key> refine_keys() {
+  return {
+      key("refine.steps", [](Draft& d) { return &d.config.refine.steps; }, {0, 1000}, "most outer steps; 0 for no refinement"),
+      key("refine.queries_per_cell", [](Draft& d) { return &d.config.refine.queries_per_cell; }, {1, 1000}, "queries refined on, for each cell of the table"),
+      key("refine.table_share", [](Draft& d) { return &d.config.refine.table_share; }, {0, 1}, "share of the queries that are uniform in the table's own axes"),
+      key("refine.node_weight", [](Draft& d) { return &d.config.refine.node_weight; }, {0, 1}, "share of the objective that the nodes' own lobes have"),
+      key("refine.held_out_queries", [](Draft& d) { return &d.config.refine.held_out_queries; }, {100, 1'000'000}, "queries not refined on, which decide what is kept"),
+      key("refine.damping", [](Draft& d) { return &d.config.refine.damping; }, above(0, 1e6), "first damping, as a share of the curvature's diagonal"),
+      key("refine.overshoot", [](Draft& d) { return &d.config.refine.overshoot; }, {1, 1.9}, "steps are taken this many times as long as the model says"),
+      key("refine.tolerance", [](Draft& d) { return &d.config.refine.tolerance; }, {0, 1}, "ends when a step gains less than this share of the loss"),
+      key("refine.keep_smoothest", [](Draft& d) { return &d.config.refine.keep_smoothest; }, "leave the nodes with alpha <= alpha_min as they are"),
+      key("refine.samples", [](Draft& d) { return &d.config.refine.sampling.samples; }, {64, 65536}, "cosine samples a query"),
+      key("refine.directions", [](Draft& d) { return &d.config.refine.sampling.directions; }, {4, 4096}, "projection directions a query"),
+      key("refine.target_samples", [](Draft& d) { return &d.config.refine.sampling.target_samples; }, {64, 1048576}, "GGX samples a query"),
+      key("refine.roughness_first", [](Draft& d) { return &d.config.refine.range.roughness_first; }, {0, 1}, "least perceptual roughness asked for, where no scene says"),
+      key("refine.roughness_last", [](Draft& d) { return &d.config.refine.range.roughness_last; }, {0, 1}, "largest perceptual roughness asked for, where no scene says"),
+  };
+}
+
 std::vector<Key> output_keys() {
   return {
       file_name_key("output.name", [](Draft& d) { return &d.config.output.name; }, "the files are NAME.h5, NAME.0.exr, NAME.1.exr, NAME.2.exr and NAME.npy"),
@@ -106,7 +125,7 @@ std::vector<Key> output_keys() {
 const std::vector<Key>& keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> keys;
-    for (const std::vector<Key>& section : {table_keys(), fit_keys(), output_keys()})
+    for (const std::vector<Key>& section : {table_keys(), fit_keys(), refine_keys(), output_keys()})
       keys.insert(keys.end(), section.begin(), section.end());
     return keys;
   }();

@@ -13,6 +13,7 @@
 #include "core/version.h"
 #include "fit/fit_table.h"
 #include "pipeline/post_process.h"
+#include "postprocess/normalise.h"
 
 namespace ltc {
 namespace {
@@ -59,6 +60,37 @@ void post_process_all(const Grid& grid, const std::vector<FittedEntry>& entries,
   }
 }
 
+// Moves the nodes' matrices for the sake of what lies between them, and states their losses anew.
+RefineReport refine_nodes(const Config& config, const std::vector<QueryRange>& asked, int threads,
+                          Progress* progress, Table& table) {
+  const std::size_t count = table.grid.size();
+  std::vector<Eigen::Matrix3d> stored(count);
+  std::vector<bool> present(count), movable(count);
+  for (std::size_t flat = 0; flat < count; ++flat) {
+    const double alpha = table.grid.alpha.nodes[table.grid.node(flat).alpha];
+    stored[flat] = table.stored_at(flat);
+    present[flat] = has_values(table.status[flat]);
+    movable[flat] =
+        present[flat] && !(config.refine.keep_smoothest && alpha <= table.grid.alpha_min);
+  }
+  const RefineReport report = refine(table.grid, table.storage, present, movable,
+                                     asked.empty() ? std::vector{config.refine.range} : asked,
+                                     config.refine, threads, progress, stored);
+  if (!report.kept)
+    return report;
+  for (std::size_t flat = 0; flat < count; ++flat)
+    if (movable[flat])
+      table.set_stored(flat, normalise(stored[flat]));
+  for (std::size_t flat = 0; flat < count; ++flat)
+    stored[flat] = table.stored_at(flat);
+  const std::vector<double> losses =
+      node_losses(table.grid, table.storage, movable, stored, threads);
+  for (std::size_t flat = 0; flat < count; ++flat)
+    if (movable[flat])
+      table.sw_loss[flat] = static_cast<float>(losses[flat]);
+  return report;
+}
+
 void integrate_albedos(const Grid& grid, const std::vector<bool>& needed, int threads,
                        Progress* progress, Table& table) {
   const AlbedoRule rule;
@@ -88,7 +120,8 @@ Table generate_table(const Config& config, int threads, Progress* progress,
 }
 
 Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
-                     Progress* progress, GenerateReport* report, FitJournal* journal) {
+                     Progress* progress, GenerateReport* report, FitJournal* journal,
+                     const std::vector<QueryRange>& asked) {
   GenerateReport unread;
   GenerateReport& result = report ? *report : unread;
   auto lap = std::chrono::steady_clock::now();
@@ -114,6 +147,10 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
   finish_stage("align");
   post_process_all(config.grid, entries, table, result);
   finish_stage("post-process");
+  if (config.refine.steps > 0) {
+    result.refine = refine_nodes(config, asked, threads, progress, table);
+    finish_stage("refine");
+  }
   integrate_albedos(config.grid, needed, threads, progress, table);
   finish_stage("albedo");
   return table;

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "config/config.h"
 #include "core/progress.h"
+#include "fit/refine.h"
 #include "table/table.h"
 
 namespace ltc {
@@ -20,15 +22,18 @@ struct GenerateReport {
   std::size_t fits_of_whole_grid = 0;  // and that would have been, were every entry needed
   double largest_zeroed = 0;  // largest |entry| that equation (16) set to zero, unit third column
   std::size_t largest_zeroed_entry = 0;  // where
+  std::optional<RefineReport> refine;    // where the config asks for it
 };
 
 class FitJournal;  // fit/fit_journal.h
 
 // Makes the entries of `config`'s table that are `needed` (one flag a node) with `threads` >= 1
 // OpenMP threads; the same bits for any number. Throws InputError for a config that cannot be met,
-// Interrupted when progress asked for a stop. `journal` as for fit_table.
+// Interrupted when progress asked for a stop. `journal` as for fit_table. A refinement serves
+// queries from `asked`; from the config's range where there are none.
 Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
-                     Progress* progress, GenerateReport* report, FitJournal* journal = nullptr);
+                     Progress* progress, GenerateReport* report, FitJournal* journal = nullptr,
+                     const std::vector<QueryRange>& asked = {});
 
 // The whole table.
 Table generate_table(const Config& config, int threads, Progress* progress, GenerateReport* report);

@@ -40,22 +40,27 @@ std::vector<GgxLobe> random_queries(const QueryRange& range, std::size_t count, 
   return queries;
 }
 
-std::vector<GgxLobe> lattice_queries(const QueryRange& range, std::size_t first, std::size_t count,
-                                     double alpha_min) {
+std::vector<std::array<double, 4>> lattice_points(std::size_t first, std::size_t count) {
   // The real root of x^5 = x + 1.
   constexpr double ratio = 1.1673039782614187;
+  std::vector<std::array<double, 4>> points(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    double step = 1;
+    for (double& coordinate : points[i]) {
+      step /= ratio;
+      const double position = 0.5 + static_cast<double>(first + i + 1) * step;
+      coordinate = position - std::floor(position);
+    }
+  }
+  return points;
+}
+
+std::vector<GgxLobe> lattice_queries(const QueryRange& range, std::size_t first, std::size_t count,
+                                     double alpha_min) {
   std::vector<GgxLobe> queries;
   queries.reserve(count);
-  for (std::size_t i = first; i < first + count; ++i) {
-    std::array<double, 4> uniforms;
-    double step = 1;
-    for (double& uniform : uniforms) {
-      step /= ratio;
-      const double position = 0.5 + static_cast<double>(i + 1) * step;
-      uniform = position - std::floor(position);
-    }
-    queries.push_back(query_lobe(range, uniforms, alpha_min));
-  }
+  for (const std::array<double, 4>& point : lattice_points(first, count))
+    queries.push_back(query_lobe(range, point, alpha_min));
   return queries;
 }
 

@@ -31,8 +31,9 @@ GgxLobe query_lobe(const QueryRange& range, const std::array<double, 4>& uniform
 std::vector<GgxLobe> random_queries(const QueryRange& range, std::size_t count, std::uint64_t seed,
                                     double alpha_min);
 
-// Queries first .. first + count - 1 of a low-discrepancy sequence (the additive recurrence of
-// Roberts' generalised golden ratio in four dimensions), for sums over many queries.
+// Points first .. first + count - 1 of a low-discrepancy sequence in four dimensions, the additive
+// recurrence of Roberts' generalised golden ratio; and the queries there, for sums over many.
+std::vector<std::array<double, 4>> lattice_points(std::size_t first, std::size_t count);
 std::vector<GgxLobe> lattice_queries(const QueryRange& range, std::size_t first, std::size_t count,
                                      double alpha_min);
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The steps that the matrices of a whole table may take together.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "fit/quantile_model.h"
+#include "table/grid.h"
+
+namespace ltc {
+
+// One value of nine numbers (a row-major matrix) a node.
+using NodeVectors = std::vector<Vector9>;
+
+// What a step must leave as it is:
+//   - the zeros of equation (16) of Aakash et al. 2022;
+//   - theta = 0: every phi has the same matrix;
+//   - lambda = 1: the matrix at phi is that at pi/2 - phi with x and y swapped, so that a look-up
+//     does not jump where alpha_y overtakes alpha_x and equation (14) folds it;
+//   - the length of the third column, to first order;
+//   - every matrix that is not `movable`.
+// All of them are subspaces, and the projection onto their intersection is orthogonal: their
+// projections commute, since symmetry maps zeros to zeros and lengths to lengths.
+class NodeSpace {
+ public:
+  NodeSpace(const Grid& grid, const std::vector<bool>& movable);
+
+  // The nearest step from `stored` that keeps all that. `stored` itself keeps it.
+  void project(const std::vector<Eigen::Matrix3d>& stored, NodeVectors& step) const;
+
+  // Gives matrices the symmetries above, by averaging those that are tied.
+  void symmetrise(std::vector<Eigen::Matrix3d>& stored) const;
+
+ private:
+  // A node's matrix, as it is or with x and y swapped.
+  struct Image {
+    std::size_t node;
+    bool swapped;
+  };
+  void average_orbits(NodeVectors& values) const;
+
+  std::vector<std::vector<Image>> orbits_;  // of more than one image
+  std::vector<FreeEntries> free_;           // none of a node that is not movable
+};
+
+// stored + step with third columns of unit length again.
+std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
+                                     const NodeVectors& step);
+
+}  // namespace ltc
