@@ -98,7 +98,7 @@ std::vector<Key> refine_keys() {
       key("refine.node_weight", [](Draft& d) { return &d.config.refine.node_weight; }, {0, 1}, "share of the objective that the nodes' own lobes have"),
       key("refine.held_out_queries", [](Draft& d) { return &d.config.refine.held_out_queries; }, {100, 1'000'000}, "queries not refined on, which decide what is kept"),
       key("refine.damping", [](Draft& d) { return &d.config.refine.damping; }, above(0, 1e6), "first damping, as a share of the curvature's diagonal"),
-      key("refine.overshoot", [](Draft& d) { return &d.config.refine.overshoot; }, {1, 1.9}, "steps are taken this many times as long as the model says"),
+      key("refine.overshoot", [](Draft& d) { return &d.config.refine.overshoot; }, above(0, 1.9), "steps are taken this many times as long as the model says"),
       key("refine.tolerance", [](Draft& d) { return &d.config.refine.tolerance; }, {0, 1}, "ends when a step gains less than this share of the loss"),
       key("refine.keep_smoothest", [](Draft& d) { return &d.config.refine.keep_smoothest; }, "leave the nodes with alpha <= alpha_min as they are"),
       key("refine.samples", [](Draft& d) { return &d.config.refine.sampling.samples; }, {64, 65536}, "cosine samples a query"),

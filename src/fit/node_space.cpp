@@ -102,9 +102,8 @@ void NodeSpace::symmetrise(std::vector<Eigen::Matrix3d>& stored) const {
 }
 
 std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
-                                     const NodeVectors& step) {
-  // A step may take this share of a matrix's determinant; longer ones are halved.
-  constexpr double least_determinant_share = 0.2;
+                                     const NodeVectors& step,
+                                     const std::vector<double>& least_determinants) {
   constexpr int most_halvings = 30;
   std::vector<Eigen::Matrix3d> result = stored;
   for (std::size_t flat = 0; flat < stored.size(); ++flat) {
@@ -113,11 +112,10 @@ std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
     Eigen::Matrix3d change;
     for (int i = 0; i < 9; ++i)
       change(i / 3, i % 3) = step[flat][i];
-    const double least = least_determinant_share * stored[flat].determinant();
     for (int halvings = 0; halvings < most_halvings; ++halvings, change /= 2) {
       Eigen::Matrix3d candidate = stored[flat] + change;
       candidate /= candidate.col(2).norm();
-      if (candidate.determinant() >= least) {
+      if (candidate.determinant() >= least_determinants[flat]) {
         result[flat] = candidate;
         break;
       }

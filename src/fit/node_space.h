@@ -46,8 +46,10 @@ class NodeSpace {
   std::vector<FreeEntries> free_;           // none of a node that is not movable
 };
 
-// stored + step with third columns of unit length again.
+// stored + step with third columns of unit length again. Where a determinant would come out below
+// its least, the node takes half the step, and half again; tied nodes of equal bounds stay tied.
 std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
-                                     const NodeVectors& step);
+                                     const NodeVectors& step,
+                                     const std::vector<double>& least_determinants);
 
 }  // namespace ltc

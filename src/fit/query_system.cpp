@@ -120,7 +120,9 @@ void QuerySystem::evaluate_query(const Query& query, const Eigen::Matrix3d& inte
   const Matrix9 to_frame = jacobian(map);
   model.loss = share * value.loss;
   model.gradient.noalias() = share * (to_frame.transpose() * value.gradient);
-  model.curvature.noalias() = share * (to_frame.transpose() * value.curvature * to_frame);
+  // Symmetric on paper, and but for the rounding of the kernel's products.
+  const Matrix9 curvature = share * (to_frame.transpose() * value.curvature * to_frame);
+  model.curvature = 0.5 * (curvature + curvature.transpose());
 }
 
 double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, int threads,

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "fit/refine.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +15,10 @@ namespace {
 
 // Damping falls after a step that was taken and rises after one that was not.
 constexpr double damping_fall = 0.4, damping_rise = 6, least_damping = 1e-3;
+
+// No node's matrix comes nearer to a singular one than this share of its determinant: a shader in
+// half precision must still be able to tell its sign.
+constexpr double least_determinant_share = 0.1;
 
 // Sets of samples that the held-out queries do not share with those refined on.
 constexpr double refined_shift = 0.0, held_out_shift = 0.4321;
@@ -123,12 +128,15 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
   const double judged =
       static_cast<double>(judge.size()) / static_cast<double>(held_out.lobes.size());
   report.loss_before = report.loss_after = judge.evaluate(stored, threads, progress) / judged;
+  std::vector<double> least_determinants;
+  for (const Eigen::Matrix3d& matrix : current)
+    least_determinants.push_back(least_determinant_share * matrix.determinant());
   double damping = settings.damping;
   while (report.steps < settings.steps) {
     ++report.steps;
     const NodeVectors step =
         refinement_step(queries, space, current, damping, settings.overshoot, threads);
-    const std::vector<Eigen::Matrix3d> trial = stepped(current, step);
+    const std::vector<Eigen::Matrix3d> trial = stepped(current, step, least_determinants);
     const double next = queries.evaluate(trial, threads, progress);
     if (!(next < objective)) {
       damping *= damping_rise;

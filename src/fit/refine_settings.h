@@ -22,7 +22,7 @@ struct RefineSettings {
   double node_weight = 0.05;    // share of the objective that the nodes' own lobes have, [0, 1]
   int held_out_queries = 2000;  // not refined on: they decide what is kept, [100, 1000000]
   double damping = 0.05;        // first mu, (0, 1e6]
-  double overshoot = 1.5;       // steps are taken this many times as long as the model says, [1, 2)
+  double overshoot = 1.5;       // steps are taken this many times as long as the model says, (0, 1.9]
   double tolerance = 5e-4;      // ends when a step gains less than this share of the loss, [0, 1]
   bool keep_smoothest = true;   // nodes with alpha <= alpha_min stay as they are
   QuerySampling sampling;
