@@ -222,6 +222,7 @@ TEST(Quality, LossesAgreeWithThoseOfTenTimesTheSamples) {
   QualitySettings settings;
   settings.queries = 20;
   settings.most_nodes = 48;
+  settings.node_directions = settings.query_directions = 8;  // the same ones below
   settings.quad_samples = 64;
   const QualityReport report = measure_quality(table, settings, 2, nullptr);
   settings.node_samples *= 10;
