@@ -10,7 +10,6 @@
 
 #include "bench/report.h"
 #include "cli/command.h"
-#include "cli/entry_text.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
@@ -19,6 +18,7 @@
 #include "core/platform.h"
 #include "core/write_file.h"
 #include "export/reader.h"
+#include "table/entry_text.h"
 
 namespace ltc::cli {
 namespace {

@@ -9,10 +9,10 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "cli/entry_text.h"
 #include "cli/output.h"
 #include "config/config.h"
 #include "core/angle.h"
+#include "table/entry_text.h"
 
 namespace ltc::cli {
 namespace {

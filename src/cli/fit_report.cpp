@@ -11,8 +11,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cli/entry_text.h"
 #include "core/angle.h"
+#include "table/entry_text.h"
 #include "validate/matrix_invariants.h"
 
 namespace ltc::cli {

@@ -13,7 +13,6 @@
 
 #include "cli/checkpoint_keeper.h"
 #include "cli/command.h"
-#include "cli/entry_text.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
@@ -28,6 +27,7 @@
 #include "scene/coverage.h"
 #include "scene/query_ranges.h"
 #include "scene/scene.h"
+#include "table/entry_text.h"
 #include "table/extend.h"
 
 namespace ltc::cli {

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/entry_text.h"
 #include "cli/progress.h"
 #include "pipeline/summary.h"
+#include "table/entry_text.h"
 
 namespace ltc::cli {
 namespace {

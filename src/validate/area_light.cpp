@@ -103,10 +103,10 @@ AreaLightJudge::AreaLightJudge(const AreaLightSettings& settings)
     : settings_(checked(settings)),
       lattices_{random_lattice(settings, 0), random_lattice(settings, 1)} {}
 
-void AreaLightJudge::set_lobe(const GgxLobe& lobe) {
+void AreaLightJudge::set_lobe(const GgxLobe& lobe, std::uint64_t draw) {
   for (std::size_t half = 0; half < 2; ++half)
     sample_weighted(lobe, lattices_[half], samples_[half]);
-  draw_quads(samples_[0]);
+  draw_quads(samples_[0], draw);
 
   const std::array<double, 2> totals{samples_[0].weight.sum(), samples_[1].weight.sum()};
   amplitude_ = (samples_[0].weight.mean() + samples_[1].weight.mean()) / 2;
@@ -122,9 +122,9 @@ void AreaLightJudge::set_lobe(const GgxLobe& lobe) {
   standard_error_ = std::sqrt(squared_errors / static_cast<double>(quads_.size()));
 }
 
-void AreaLightJudge::draw_quads(const WeightedSamples& samples) {
+void AreaLightJudge::draw_quads(const WeightedSamples& samples, std::uint64_t draw) {
   const double scale = mean_distance(samples, mean_offset(samples));
-  Random random(settings_.seed + 2);
+  Random random(settings_.seed + 2 + draw);
   quads_.clear();
   for (std::size_t i = 0; i < settings_.quads; ++i) {
     const Eigen::Vector3d center =

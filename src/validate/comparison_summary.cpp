@@ -8,13 +8,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/quantile.h"
+
 namespace ltc {
 namespace {
-
-double quantile(const std::vector<double>& sorted, double share) {
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::min(rank == 0 ? 0 : rank - 1, sorted.size() - 1)];
-}
 
 bool is_judged(const EntryComparison& entry) {
   return std::isfinite(entry.ratio());

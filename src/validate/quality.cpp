@@ -48,7 +48,7 @@ AreaLightSettings area_light_settings(const QualitySettings& settings) {
 }
 
 // Directions drawn once for all would err alike for every lobe, and the mean with them: 32 of them
-// by 4 %. So every lobe has its own, the same ones whichever table is judged.
+// by 4 %, and 16 rectangles by 6 %. So every lobe has its own, the same whichever table is judged.
 HeldOutJudge node_judge(const QualitySettings& settings, std::size_t flat) {
   return HeldOutJudge(settings.node_samples, settings.node_directions, settings.seed + flat);
 }
@@ -80,15 +80,15 @@ QueryQuality left_out(QueryState state) {
   return {state, nan, none, none};
 }
 
-QueryQuality judge_query(const Table& table, const QueryFloor& floor, HeldOutJudge held_out,
-                         AreaLightJudge& area_light) {
+QueryQuality judge_query(const Table& table, const QualitySettings& settings,
+                         const QueryFloor& floor, std::size_t query, AreaLightJudge& area_light) {
   if (!covers(table.grid, fold(floor.lobe).lobe))
     return left_out(QueryState::outside);
   const LookUp found = look_up(table, floor.lobe);
   if (!found.matrix.allFinite())
     return left_out(QueryState::missing);
-  area_light.set_lobe(floor.lobe);
-  return {QueryState::judged, relative_loss(std::move(held_out), floor.lobe, found.matrix),
+  area_light.set_lobe(floor.lobe, query);
+  return {QueryState::judged, relative_loss(query_judge(settings, query), floor.lobe, found.matrix),
           area_light.error(found.matrix), area_light.error(found.matrix, found.amplitude)};
 }
 
@@ -131,7 +131,7 @@ std::vector<QueryQuality> judge_queries(const Table& table, const QualitySetting
   parallel_for_each<AreaLightJudge>(
       "judge queries", queries.size(), threads, progress, [&] { return prototype; },
       [&](std::size_t i, AreaLightJudge& area_light) {
-        queries[i] = judge_query(table, floors[i], query_judge(settings, i), area_light);
+        queries[i] = judge_query(table, settings, floors[i], i, area_light);
       });
   return queries;
 }
@@ -168,7 +168,7 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alph
         request.lobe = lobes[i];
         request.seed = entry_seed(settings.floor_fit.seed, i);
         request.progress = progress;
-        state.area_light.set_lobe(lobes[i]);
+        state.area_light.set_lobe(lobes[i], i);
         QueryFloor& floor = floors[i];
         floor.lobe = lobes[i];
         floor.matrix = solver->fit(request, *state.workspace, nullptr).matrix;

@@ -44,8 +44,11 @@ inline Arguments generate(const Arguments& more, const std::string& output = "."
 
 // Seconds of work, most of it in the entries' own fits, some in three sweeps.
 inline const Arguments with_sweeps =
-    grid_of("3") +
-    Arguments{"--config", LTCFIT_SOURCE_DIR "/config/reference.toml", "--threads", "1"};
+    grid_of("3") + Arguments{"--config",  LTCFIT_SOURCE_DIR "/config/reference.toml",
+                             "--set",     "fit.gauss_newton.samples=4096",
+                             "--set",     "fit.gauss_newton.directions=64",
+                             "--set",     "fit.gauss_newton.target_samples=32768",
+                             "--threads", "1"};
 // A second of work by the stochastic solver.
 inline const Arguments stochastic =
     grid_of("3") + Arguments{"--config",  LTCFIT_SOURCE_DIR "/config/sgd.toml",

@@ -147,6 +147,10 @@ TEST(AreaLight, TheSameLobeHasTheSameQuads) {
   AreaLightJudge third(settings);
   third.set_lobe(kRough);
   EXPECT_NE(judge.fractions(), third.fractions());
+  third.set_lobe(kRough, 1);
+  other.set_lobe(kRough, 1);
+  EXPECT_NE(judge.fractions(), other.fractions());
+  EXPECT_NE(third.fractions(), other.fractions());
 }
 
 TEST(AreaLight, AMatrixThatIsNoneHasNoError) {
@@ -190,7 +194,7 @@ TEST(AreaLight, ThePublishedTableErrsByTwoPercentOfTheLight) {
     const double theta = std::acos(random.uniform());
     const GgxLobe lobe{alpha, std::max(lambda * alpha, 1e-4), theta,
                        std::numbers::pi / 2 * random.uniform()};
-    judge.set_lobe(lobe);
+    judge.set_lobe(lobe, static_cast<std::uint64_t>(i));
     mean += judge.error(look_up(table, lobe).matrix).mean_absolute / queries;
   }
   // 0.0230 with 16,384 samples. Another 600 queries differ by 0.0010, the standard error of their

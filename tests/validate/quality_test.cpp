@@ -222,6 +222,7 @@ TEST(Quality, LossesAgreeWithThoseOfTenTimesTheSamples) {
   QualitySettings settings;
   settings.queries = 20;
   settings.most_nodes = 48;
+  settings.node_directions = settings.query_directions = 8;  // the same ones below
   settings.quad_samples = 64;
   const QualityReport report = measure_quality(table, settings, 2, nullptr);
   settings.node_samples *= 10;
@@ -232,14 +233,16 @@ TEST(Quality, LossesAgreeWithThoseOfTenTimesTheSamples) {
   EXPECT_NEAR(report.floor_losses.mean / finer.floor_losses.mean, 1, 0.02);
 }
 
-// With a quarter of the default's samples. Other samples give other rectangles about the same
-// lobe, which moves the mean of 400 queries by 1 %.
+// With a quarter of the default's samples. Other samples give other rectangles about the same lobe:
+// with 16 a lobe, that moves the mean of 400 queries by 1.5 % (measured over 24 draws), so with 32
+// the quotient of two means by 1.5 %. 4.5 % are three deviations.
 TEST(Quality, AreaLightErrorsAgreeWithThoseOfTenTimesTheSamples) {
   const Table& table = small_table();
   QualitySettings settings;
   settings.query_samples = 64;  // losses are not what this is about
   settings.query_directions = 4;
   settings.most_nodes = 0;
+  settings.quads = 32;
   settings.quad_samples = 4096;
   std::vector<QueryFloor> floors;
   for (const GgxLobe& lobe : random_queries(settings.range, 400, 1, table.grid.alpha_min)) {
@@ -249,9 +252,19 @@ TEST(Quality, AreaLightErrorsAgreeWithThoseOfTenTimesTheSamples) {
   const QualityReport report = measure_quality(table, settings, floors, 2, nullptr);
   settings.quad_samples *= 10;
   const QualityReport finer = measure_quality(table, settings, floors, 2, nullptr);
-  EXPECT_NEAR(report.area_light.mean / finer.area_light.mean, 1, 0.02);
+  EXPECT_NEAR(report.area_light.mean / finer.area_light.mean, 1, 0.045);
   EXPECT_NEAR(report.area_light_with_amplitude.mean / finer.area_light_with_amplitude.mean, 1,
-              0.02);
+              0.045);
+}
+
+// One lobe, asked for over and over: rectangles drawn once for all would give one error.
+TEST(Quality, EveryQueryHasRectanglesOfItsOwn) {
+  std::vector<QueryFloor> floors(3);
+  for (QueryFloor& floor : floors)
+    floor.lobe = {0.3, 0.1, 0.7, 0.6};
+  const QualityReport report = measure_quality(small_table(), quick_settings(), floors, 1, nullptr);
+  EXPECT_NE(report.queries[0].area_light.mean_absolute, report.queries[1].area_light.mean_absolute);
+  EXPECT_NE(report.queries[1].area_light.mean_absolute, report.queries[2].area_light.mean_absolute);
 }
 
 // Directions are drawn at random, 32 a lobe, which moves one lobe's relative loss by 5 to 10 %. The
