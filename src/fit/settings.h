@@ -20,11 +20,11 @@ struct GaussNewtonSettings {
   int coarse_steps = 12;       // most steps of the coarse phase, [0, 1000]
   int samples = 4096;          // cosine samples of the fine phase, [64, 65536]
   int directions = 32;         // projection directions of the fine phase, [4, 4096]
-  int steps = 12;              // most steps of the fine phase, [1, 1000]
+  int steps = 20;              // most steps of the fine phase, [1, 1000]
   int target_samples = 8192;   // GGX samples that the target's quantiles come from, [64, 1048576]
   // A phase ends when a step gains less than this share of the loss, [0, 1].
   double coarse_tolerance = 3e-3;
-  double tolerance = 3e-4;
+  double tolerance = 1e-4;
   // Lobes that no LTC comes near are fitted with down to a quarter of the samples: what is left of
   // their loss is not noise.
   bool adaptive = true;
