@@ -58,7 +58,7 @@ TEST(RefineProgram, BettersWhatLiesBetweenTheNodes) {
   EXPECT_NE(result.out.find("refined  4 steps over "), std::string::npos) << result.out;
   const Table before = read_hdf5(folder / "fitted/ltc.h5"),
               after = read_hdf5(folder / "refined/ltc.h5");
-  // Measured: 0.70. These queries are neither refined on nor those that decide what is kept; the
+  // These queries are neither refined on nor those that decide what is kept; the
   // mean of 200 has a standard error of some 5 %, the same on both sides.
   EXPECT_LT(mean_relative_loss(after), 0.85 * mean_relative_loss(before));
   // Nodes at alpha = 0 are kept as they are, and the losses stated are those of what is stored.

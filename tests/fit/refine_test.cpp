@@ -320,7 +320,7 @@ TEST(Refine, KeepsTheTableWhereItWouldNotBeBetter) {
   const Grid grid = small_grid();
   std::vector<Eigen::Matrix3d> stored = matrices(grid);
   refined(quick_settings(), 2, grid, stored);
-  // Refined for other materials than it is judged by: one query a cell, all weight on the nodes.
+  // All weight on the nodes' own lobes: what lies between them can only lose.
   RefineSettings settings = quick_settings();
   settings.node_weight = 1;
   const std::vector<Eigen::Matrix3d> before = stored;
