@@ -24,8 +24,7 @@ struct Sets {
       : cosines(make_cosine_set(samples)),
         lattice(make_target_lattice(target_samples, 0.3)),
         bins(std::clamp<std::size_t>(samples / 64, 32, 256)) {
-    for (const Eigen::Vector3d& direction : fibonacci_directions(direction_count))
-      directions.push_back(direction.cast<float>());
+    directions = in_float(fibonacci_directions(direction_count));
     sample_weighted_target(frame, lattice, target);
     quantiles.build(target, directions, bins, model.xi, model.bins);
     start = first_order_start(frame);

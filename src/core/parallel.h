@@ -53,4 +53,14 @@ void parallel_for_each(std::string_view stage, std::size_t count, int threads, P
     progress->throw_if_stopped();
 }
 
+// The same for work(i) that needs no state.
+template <typename Work>
+void parallel_for_each(std::string_view stage, std::size_t count, int threads, Progress* progress,
+                       Work&& work) {
+  struct NoState {};
+  parallel_for_each<NoState>(
+      stage, count, threads, progress, [] { return NoState(); },
+      [&](std::size_t i, NoState&) { work(i); });
+}
+
 }  // namespace ltc

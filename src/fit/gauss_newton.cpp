@@ -109,13 +109,6 @@ class CurvatureCorrection {
   std::size_t count_ = 0;
 };
 
-Vector9 flattened(const Eigen::Matrix3d& matrix) {
-  Vector9 flat;
-  for (int i = 0; i < 9; ++i)
-    flat[i] = matrix(i / 3, i % 3);
-  return flat;
-}
-
 }  // namespace
 
 double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p) {

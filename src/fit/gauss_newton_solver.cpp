@@ -66,6 +66,7 @@ GaussNewtonSolver::Level GaussNewtonSolver::make_level(int samples, int steps, d
 GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target)
     : settings_(settings),
       target_kind_(target),
+      directions_(in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)))),
       bins_(bins_for(settings.samples)),
       lattice_(make_target_lattice(static_cast<std::size_t>(settings.target_samples), 0.3)),
       light_lattice_(settings.adaptive ? make_target_lattice(static_cast<std::size_t>(std::max(
@@ -74,9 +75,6 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
                                        : lattice_),
       coarse_(make_level(settings.coarse_samples, settings.coarse_steps, settings.coarse_tolerance,
                          0.1)) {
-  for (const Eigen::Vector3d& direction :
-       fibonacci_directions(static_cast<std::size_t>(settings.directions)))
-    directions_.push_back(direction.cast<float>());
   coarse_.options.direction_stride =
       static_cast<std::size_t>(std::max(1, settings.directions / settings.coarse_directions));
   for (const int divisor : {4, 2, 1}) {

@@ -120,8 +120,7 @@ L3NelderMeadSolver::L3NelderMeadSolver(const L3Settings& settings)
       lattice_(make_target_lattice(static_cast<std::size_t>(settings.samples), 0.3)),
       loss_cosines_(make_cosine_set(loss_samples)),
       loss_lattice_(make_target_lattice(loss_target_samples, 0.3)) {
-  for (const Eigen::Vector3d& direction : fibonacci_directions(loss_directions))
-    loss_directions_.push_back(direction.cast<float>());
+  loss_directions_ = in_float(fibonacci_directions(loss_directions));
 }
 
 double L3NelderMeadSolver::sliced_wasserstein_loss(const LobeFrame& frame,

@@ -93,12 +93,10 @@ void NodeSpace::project(const std::vector<Eigen::Matrix3d>& stored, NodeVectors&
 void NodeSpace::symmetrise(std::vector<Eigen::Matrix3d>& stored) const {
   NodeVectors values(stored.size());
   for (std::size_t flat = 0; flat < stored.size(); ++flat)
-    for (int i = 0; i < 9; ++i)
-      values[flat][i] = stored[flat](i / 3, i % 3);
+    values[flat] = flattened(stored[flat]);
   average_orbits(values);
   for (std::size_t flat = 0; flat < stored.size(); ++flat)
-    for (int i = 0; i < 9; ++i)
-      stored[flat](i / 3, i % 3) = values[flat][i];
+    stored[flat] = unflattened(values[flat]);
 }
 
 std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
@@ -109,9 +107,7 @@ std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
   for (std::size_t flat = 0; flat < stored.size(); ++flat) {
     if (step[flat].isZero(0))
       continue;
-    Eigen::Matrix3d change;
-    for (int i = 0; i < 9; ++i)
-      change(i / 3, i % 3) = step[flat][i];
+    Eigen::Matrix3d change = unflattened(step[flat]);
     for (int halvings = 0; halvings < most_halvings; ++halvings, change /= 2) {
       Eigen::Matrix3d candidate = stored[flat] + change;
       candidate /= candidate.col(2).norm();

@@ -29,6 +29,20 @@ namespace ltc {
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
+// A matrix as nine numbers, row-major, and back.
+inline Vector9 flattened(const Eigen::Matrix3d& matrix) {
+  Vector9 flat;
+  for (int i = 0; i < 9; ++i)
+    flat[i] = matrix(i / 3, i % 3);
+  return flat;
+}
+inline Eigen::Matrix3d unflattened(const Vector9& flat) {
+  Eigen::Matrix3d matrix;
+  for (int i = 0; i < 9; ++i)
+    matrix(i / 3, i % 3) = flat[i];
+  return matrix;
+}
+
 // Samples of the GGX lobe as offsets from its mirror direction, in the mirror's frame.
 struct TargetSamples {
   AlignedFloats gx, gy, gz, weight;

@@ -166,9 +166,7 @@ std::vector<double> node_losses(const Grid& grid, Storage storage,
                                 const std::vector<Eigen::Matrix3d>& stored, int threads) {
   const CosineSet cosines = make_cosine_set(4096);
   const TargetLattice lattice = make_target_lattice(8192, 0.3);
-  std::vector<Eigen::Vector3f> directions;
-  for (const Eigen::Vector3d& direction : fibonacci_directions(32))
-    directions.push_back(direction.cast<float>());
+  const std::vector<Eigen::Vector3f> directions = in_float(fibonacci_directions(32));
   constexpr std::size_t bins = 64;
   std::vector<double> losses(grid.size(), std::numeric_limits<double>::quiet_NaN());
 #pragma omp parallel num_threads(threads)

@@ -83,4 +83,11 @@ std::vector<Eigen::Vector3d> random_directions(std::size_t count, std::uint64_t 
   return directions;
 }
 
+std::vector<Eigen::Vector3f> in_float(const std::vector<Eigen::Vector3d>& directions) {
+  std::vector<Eigen::Vector3f> result;
+  for (const Eigen::Vector3d& direction : directions)
+    result.push_back(direction.cast<float>());
+  return result;
+}
+
 }  // namespace ltc

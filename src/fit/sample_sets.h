@@ -39,4 +39,7 @@ std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count);
 // Directions uniform on the sphere from a seeded generator.
 std::vector<Eigen::Vector3d> random_directions(std::size_t count, std::uint64_t seed);
 
+// The same directions as the kernels take them.
+std::vector<Eigen::Vector3f> in_float(const std::vector<Eigen::Vector3d>& directions);
+
 }  // namespace ltc

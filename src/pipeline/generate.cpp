@@ -25,17 +25,11 @@ std::size_t representative_count(const std::vector<PlannedEntry>& plan) {
   return count;
 }
 
-struct NoState {};
-NoState no_state() {
-  return {};
-}
-
 void align_all(std::vector<FittedEntry>& entries, int threads, Progress* progress) {
-  parallel_for_each<NoState>("align", entries.size(), threads, progress, no_state,
-                             [&](std::size_t i, NoState&) {
-                               if (has_values(entries[i].status))
-                                 entries[i].matrix = align(entries[i].matrix);
-                             });
+  parallel_for_each("align", entries.size(), threads, progress, [&](std::size_t i) {
+    if (has_values(entries[i].status))
+      entries[i].matrix = align(entries[i].matrix);
+  });
 }
 
 // From aligned matrices to the table. At theta = 0 all phi share one lobe; their matrices are made
@@ -95,14 +89,13 @@ void integrate_albedos(const Grid& grid, const std::vector<bool>& needed, int th
                        Progress* progress, Table& table) {
   const AlbedoRule rule;
   const std::vector<PlannedEntry> plan = plan_by_symmetry(grid, needed);
-  parallel_for_each<NoState>(
-      "albedo", plan.size(), threads, progress, no_state, [&](std::size_t flat, NoState&) {
-        if (plan[flat].representative != flat)
-          return;
-        const Albedo albedo = integrate_albedo(grid.lobe(grid.node(flat)), rule);
-        table.amplitude[flat] = static_cast<float>(albedo.amplitude);
-        table.fresnel[flat] = static_cast<float>(albedo.fresnel);
-      });
+  parallel_for_each("albedo", plan.size(), threads, progress, [&](std::size_t flat) {
+    if (plan[flat].representative != flat)
+      return;
+    const Albedo albedo = integrate_albedo(grid.lobe(grid.node(flat)), rule);
+    table.amplitude[flat] = static_cast<float>(albedo.amplitude);
+    table.fresnel[flat] = static_cast<float>(albedo.fresnel);
+  });
   for (std::size_t flat = 0; flat < plan.size(); ++flat) {
     if (plan[flat].representative == PlannedEntry::none)
       continue;

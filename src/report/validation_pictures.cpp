@@ -144,15 +144,12 @@ std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_
   for (const LobeToDraw& lobe : worst_lobes(validation, lobes))
     to_draw.push_back(lobe);
   std::vector<std::optional<picture::Canvas>> canvases(to_draw.size());
-  struct NoState {};
-  parallel_for_each<NoState>(
-      "draw lobes", to_draw.size(), threads, progress, [] { return NoState(); },
-      [&](std::size_t i, NoState&) {
-        const LobeToDraw& lobe = to_draw[i];
-        picture::Words words{lobe.title, lobe_words(lobe.lobe), {lobe.words}};
-        canvases[i] = render_lobe(lobe_panels(lobe.lobe, lobe.matrix, words, lobe_side),
-                                  picture::Chart{}, lobe_width);
-      });
+  parallel_for_each("draw lobes", to_draw.size(), threads, progress, [&](std::size_t i) {
+    const LobeToDraw& lobe = to_draw[i];
+    picture::Words words{lobe.title, lobe_words(lobe.lobe), {lobe.words}};
+    canvases[i] = render_lobe(lobe_panels(lobe.lobe, lobe.matrix, words, lobe_side),
+                              picture::Chart{}, lobe_width);
+  });
   std::vector<NamedPicture> pictures;
   for (std::size_t i = 0; i < to_draw.size(); ++i)
     pictures.push_back({to_draw[i].title, lobe_words(to_draw[i].lobe), std::move(*canvases[i])});

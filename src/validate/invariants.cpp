@@ -194,16 +194,13 @@ class Checks {
       return not_in_file(name, limits_.albedo_error);
     const AlbedoRule rule(static_cast<std::size_t>(limits_.albedo_points));
     std::vector<double> errors(table_.grid.size(), nan);
-    struct NoState {};
-    parallel_for_each<NoState>(
-        "albedo", errors.size(), threads_, progress_, [] { return NoState{}; },
-        [&](std::size_t flat, NoState&) {
-          if (!present_[flat])
-            return;
-          const Albedo albedo = integrate_albedo(lobe_at(flat), rule);
-          errors[flat] = std::max(std::abs(table_.amplitude[flat] - albedo.amplitude),
-                                  std::abs(table_.fresnel[flat] - albedo.fresnel));
-        });
+    parallel_for_each("albedo", errors.size(), threads_, progress_, [&](std::size_t flat) {
+      if (!present_[flat])
+        return;
+      const Albedo albedo = integrate_albedo(lobe_at(flat), rule);
+      errors[flat] = std::max(std::abs(table_.amplitude[flat] - albedo.amplitude),
+                              std::abs(table_.fresnel[flat] - albedo.fresnel));
+    });
     return judged(name, limits_.albedo_error, present_,
                   [&](std::size_t flat) { return errors[flat]; });
   }

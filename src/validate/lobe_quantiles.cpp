@@ -21,8 +21,7 @@ LobeQuantiles::LobeQuantiles(std::size_t samples, std::size_t directions, std::s
     : blocks_(blocks),
       cosines_(make_cosine_set(samples, cosine_shift)),
       lattice_(make_target_lattice(samples, lattice_shift)) {
-  for (const Eigen::Vector3d& direction : fibonacci_directions(directions))
-    directions_.push_back(direction.cast<float>());
+  directions_ = in_float(fibonacci_directions(directions));
   for (AlignedFloats* array : {&gx_, &gy_, &gz_, &projections_})
     array->resize(cosines_.size());
   keys_.resize(lattice_.size());

@@ -63,8 +63,6 @@ double relative_loss(HeldOutJudge judge, const GgxLobe& lobe, const Eigen::Matri
   return judgement.loss_a / judgement.spread;
 }
 
-struct NoState {};
-
 bool within(const Axis& axis, double value) {
   return value >= axis.first() - beyond_axis && value <= axis.last() + beyond_axis;
 }
@@ -113,13 +111,11 @@ std::vector<double> judge_nodes(const Table& table, const QualitySettings& setti
                                 Progress* progress) {
   std::vector<double> losses(table.grid.size(), nan);
   const std::vector<std::size_t> nodes = nodes_to_judge(table, settings);
-  parallel_for_each<NoState>(
-      "judge nodes", nodes.size(), threads, progress, [] { return NoState(); },
-      [&](std::size_t i, NoState&) {
-        const std::size_t flat = nodes[i];
-        losses[flat] = relative_loss(node_judge(settings, flat),
-                                     table.grid.lobe(table.grid.node(flat)), table.matrix_at(flat));
-      });
+  parallel_for_each("judge nodes", nodes.size(), threads, progress, [&](std::size_t i) {
+    const std::size_t flat = nodes[i];
+    losses[flat] = relative_loss(node_judge(settings, flat), table.grid.lobe(table.grid.node(flat)),
+                                 table.matrix_at(flat));
+  });
   return losses;
 }
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/angle.h"
 #include "validate/comparison_summary.h"
+#include "validate/table_map.h"
 
 namespace ltc {
 namespace {
@@ -30,13 +30,6 @@ double color_bound(const Grid& grid, const std::vector<EntryComparison>& entries
   const std::vector<double> factors = figures_of(
       entries, [](const EntryComparison& e) { return std::exp(std::abs(std::log(e.ratio()))); });
   return rounded_bound(statistics_of(factors, counts).p99);
-}
-
-picture::MapAxis map_axis(const char* title, const Axis& axis, double unit, const char* sign) {
-  picture::MapAxis result{axis.size(), title};
-  for (const double node : axis.nodes)
-    result.labels.push_back(fmt::format("{:.3g}{}", node / unit, sign));
-  return result;
 }
 
 std::string row_text(const ComparisonRow& row) {
@@ -64,16 +57,11 @@ picture::Words words_of(const Grid& grid, const std::vector<EntryComparison>& en
 picture::TiledMap ratio_map(const Grid& grid, const std::vector<EntryComparison>& entries,
                             const std::string& name_a, const std::string& name_b,
                             std::size_t marked) {
-  picture::TiledMap map{
-      .colors = picture::ratio_colors(color_bound(grid, entries), "loss of A over loss of B")};
-  map.words = words_of(grid, entries, name_a, name_b);
-  map.tile_rows = map_axis("α", grid.alpha, 1, "");
-  map.tile_columns = map_axis("λ", grid.lambda, 1, "");
-  map.rows = map_axis("θ", grid.theta, radians_per_degree, "°");
-  map.columns = map_axis("φ", grid.phi, radians_per_degree, "°");
   const std::vector<double> ratios =
       figures_of(entries, [](const EntryComparison& entry) { return entry.ratio(); });
-  map.values.assign(ratios.begin(), ratios.end());
+  picture::TiledMap map = table_map(
+      grid, ratios, picture::ratio_colors(color_bound(grid, entries), "loss of A over loss of B"));
+  map.words = words_of(grid, entries, name_a, name_b);
   for (const std::size_t flat : largest_of(ratios, marked)) {
     const NodeIndex node = grid.node(flat);
     if (ratios[flat] > 1)

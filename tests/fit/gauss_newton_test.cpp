@@ -44,8 +44,7 @@ struct Planted {
     planted(1, 2) = -0.2 * uniform() * lobe.alpha_y;
     // Another lattice than the fit's, sixteen times as fine.
     samples = test::planted_target(frame, planted, make_cosine_set(16384, 0.41));
-    quantiles.build(samples, test::in_float(fibonacci_directions(32)), 64, workspace.xi,
-                    workspace.bins);
+    quantiles.build(samples, in_float(fibonacci_directions(32)), 64, workspace.xi, workspace.bins);
   }
 
   Descent descend(const Eigen::Matrix3d& start, int steps, std::vector<FitStep>* trace = nullptr) {
@@ -112,8 +111,7 @@ TEST(GaussNewton, TakesNoStepThatLoses) {
     sample_weighted_target(frame, make_target_lattice(4096, 0.3), samples);
     TargetQuantiles quantiles;
     ModelWorkspace workspace;
-    quantiles.build(samples, test::in_float(fibonacci_directions(16)), 32, workspace.xi,
-                    workspace.bins);
+    quantiles.build(samples, in_float(fibonacci_directions(16)), 32, workspace.xi, workspace.bins);
     const CosineSet cosines = make_cosine_set(256);
     for (const Eigen::Matrix3d& start :
          {first_order_start(frame), moment_start(frame, samples), identity_start(frame),

@@ -88,11 +88,4 @@ inline TargetSamples planted_target(const LobeFrame& frame, const Eigen::Matrix3
   return samples;
 }
 
-inline std::vector<Eigen::Vector3f> in_float(const std::vector<Eigen::Vector3d>& directions) {
-  std::vector<Eigen::Vector3f> result;
-  for (const Eigen::Vector3d& direction : directions)
-    result.push_back(direction.cast<float>());
-  return result;
-}
-
 }  // namespace ltc::test

@@ -21,7 +21,7 @@ namespace {
 struct Model {
   explicit Model(const GgxLobe& lobe) : frame(lobe) {
     sample_weighted_target(frame, make_target_lattice(4096, test::kMiddleShift), samples);
-    quantiles.build(samples, test::in_float(directions), 64, workspace.xi, workspace.bins);
+    quantiles.build(samples, in_float(directions), 64, workspace.xi, workspace.bins);
   }
 
   ModelValue operator()(const Eigen::Matrix3d& p, double smoothing) {
