@@ -121,11 +121,6 @@ Work plan_work(const Arguments& arguments, const Config& config) {
     work.asked = query_ranges(scene);
   }
   work.to_fit = work.needed;
-  if (!arguments.extend.empty() && config.refine.steps > 0)
-    throw InputError(fmt::format(
-        "refine.steps = {} cannot be had with --extend, which keeps {} bit for bit; expected 0, or "
-        "a whole new table",
-        config.refine.steps, arguments.extend));
   if (!arguments.extend.empty()) {
     work.existing = read_table(arguments.extend);
     require_extendable(*work.existing, arguments.extend, config.grid, config.storage, config.brdf);
@@ -170,7 +165,8 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
   CheckpointKeeper keeper(task, *journal, progress);
   keeper.guard([&] {
     table = generate_table(config, work.to_fit, arguments.threads, &progress, &report.generate,
-                           journal.get(), work.asked);
+                           journal.get(),
+                           {work.asked, work.existing ? &*work.existing : nullptr});
     keeper.close();
     if (work.existing)
       table = extended(*work.existing, table);

@@ -99,9 +99,13 @@ void NodeSpace::symmetrise(std::vector<Eigen::Matrix3d>& stored) const {
     stored[flat] = unflattened(values[flat]);
 }
 
+double solid_angle_of_columns(const Eigen::Matrix3d& matrix) {
+  return matrix.colwise().normalized().determinant();
+}
+
 std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
                                      const NodeVectors& step,
-                                     const std::vector<double>& least_determinants) {
+                                     const std::vector<DeterminantBound>& bounds) {
   constexpr int most_halvings = 30;
   std::vector<Eigen::Matrix3d> result = stored;
   for (std::size_t flat = 0; flat < stored.size(); ++flat) {
@@ -111,7 +115,8 @@ std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
     for (int halvings = 0; halvings < most_halvings; ++halvings, change /= 2) {
       Eigen::Matrix3d candidate = stored[flat] + change;
       candidate /= candidate.col(2).norm();
-      if (candidate.determinant() >= least_determinants[flat]) {
+      if (candidate.determinant() >= bounds[flat].determinant &&
+          solid_angle_of_columns(candidate) >= bounds[flat].solid_angle) {
         result[flat] = candidate;
         break;
       }

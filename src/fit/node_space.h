@@ -46,10 +46,20 @@ class NodeSpace {
   std::vector<FreeEntries> free_;           // none of a node that is not movable
 };
 
-// stored + step with third columns of unit length again. Where a determinant would come out below
-// its least, the node takes half the step, and half again; tied nodes of equal bounds stay tied.
+// How near a matrix may come to a singular one.
+struct DeterminantBound {
+  double determinant;  // at least this
+  double solid_angle;  // and that of the columns' directions, in [-1, 1], at least this
+};
+
+// |a b c| of the matrix's columns, each made a unit vector: what is left of the determinant's
+// digits when a shader rounds its entries. 1 for orthogonal columns, 0 for a singular matrix.
+double solid_angle_of_columns(const Eigen::Matrix3d& matrix);
+
+// stored + step with third columns of unit length again. Where that would fall below its bound, the
+// node takes half the step, and half again; tied nodes of equal bounds stay tied.
 std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
                                      const NodeVectors& step,
-                                     const std::vector<double>& least_determinants);
+                                     const std::vector<DeterminantBound>& bounds);
 
 }  // namespace ltc

@@ -86,9 +86,7 @@ void sample_weighted_target(const LobeFrame& frame, const TargetLattice& lattice
                          samples.gy.data(), samples.gz.data(), samples.weight.data());
 }
 
-void TargetQuantiles::build(const TargetSamples& samples,
-                            const std::vector<Eigen::Vector3f>& directions, std::size_t bin_count,
-                            AlignedFloats& xi, AlignedVector<std::int32_t>& bins) {
+void TargetQuantiles::reserve(std::size_t directions, std::size_t bin_count) {
   if (bin_count_ != bin_count) {
     bin_count_ = bin_count;
     unit_edges_.resize(bin_count + 1);
@@ -97,12 +95,18 @@ void TargetQuantiles::build(const TargetSamples& samples,
       unit_edges_[j] = t / std::sqrt(1 - t * t);
     }
   }
-  maps_.resize(directions.size());
-  mass_.resize(directions.size() * (bin_count + 1));
+  maps_.resize(directions);
+  mass_.resize(directions * (bin_count + 1));
   for (AlignedFloats* array : {&moment_, &inverse_width_, &c1_, &c2_, &c3_})
-    array->resize(directions.size() * bin_count);
-  first_cell_.resize(directions.size() * bin_count);
-  sums_.resize(2 * bin_count);
+    array->resize(directions * bin_count);
+  first_cell_.resize(directions * bin_count);
+  sums_.resize(directions * 2 * bin_count);
+}
+
+void TargetQuantiles::build(const TargetSamples& samples,
+                            const std::vector<Eigen::Vector3f>& directions, std::size_t bin_count,
+                            AlignedFloats& xi, AlignedVector<std::int32_t>& bins) {
+  reserve(directions.size(), bin_count);
   if (pairs_.size() < 2 * samples.size)
     pairs_.resize(2 * samples.size);
   if (xi.size() < samples.size) {
@@ -111,6 +115,7 @@ void TargetQuantiles::build(const TargetSamples& samples,
   }
   const Eigen::Vector3d mean = target_moments(samples).mean;
   spread_ = 0;
+  std::fill(sums_.begin(), sums_.end(), 0.0f);
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const Eigen::Vector3d d = directions[k].cast<double>();
     const double centre = d.dot(mean);
@@ -119,13 +124,37 @@ void TargetQuantiles::build(const TargetSamples& samples,
                 static_cast<float>(1 / scale)};
     kernels::project_and_bin(maps_[k], samples.gx.data(), samples.gy.data(), samples.gz.data(),
                              samples.size, bin_count, xi.data(), bins.data());
-    std::fill(sums_.begin(), sums_.end(), 0.0f);
     kernels::accumulate_weights(xi.data(), bins.data(), samples.weight.data(), samples.size,
-                                pairs_.data(), sums_.data());
+                                pairs_.data(), sums_.data() + k * 2 * bin_count);
     cut_into_cells(k);
     spread_ += scale;
   }
   spread_ /= static_cast<double>(directions.size());
+}
+
+void TargetQuantiles::keep(BinnedTarget& binned) const {
+  binned.spread = spread_;
+  binned.values.clear();
+  binned.values.reserve(maps_.size() * (2 + 2 * bin_count_));
+  for (std::size_t k = 0; k < maps_.size(); ++k) {
+    binned.values.push_back(maps_[k].centre);
+    binned.values.push_back(maps_[k].inverse_scale);
+    const float* sums = sums_.data() + k * 2 * bin_count_;
+    binned.values.insert(binned.values.end(), sums, sums + 2 * bin_count_);
+  }
+}
+
+void TargetQuantiles::rebuild(const BinnedTarget& binned,
+                              const std::vector<Eigen::Vector3f>& directions,
+                              std::size_t bin_count) {
+  reserve(directions.size(), bin_count);
+  spread_ = binned.spread;
+  const float* values = binned.values.data();
+  for (std::size_t k = 0; k < directions.size(); ++k, values += 2 + 2 * bin_count) {
+    maps_[k] = {directions[k].x(), directions[k].y(), directions[k].z(), values[0], values[1]};
+    std::copy_n(values + 2, 2 * bin_count, sums_.data() + k * 2 * bin_count);
+    cut_into_cells(k);
+  }
 }
 
 // Mass and moment of every bin to the cells of kernels::TargetCells. Inside, the integral of the
@@ -133,15 +162,16 @@ void TargetQuantiles::build(const TargetSamples& samples,
 // bin's edges; in the first and last cell, where an edge is infinite, it is linear.
 void TargetQuantiles::cut_into_cells(std::size_t direction) {
   const kernels::ProjectionMap& map = maps_[direction];
+  const float* sums = sums_.data() + direction * 2 * bin_count_;
   double total = 0;
   for (std::size_t b = 0; b < bin_count_; ++b)
-    total += sums_[2 * b];
+    total += sums[2 * b];
   float* mass = mass_.data() + direction * (bin_count_ + 1);
   const std::size_t first = direction * bin_count_;
   double below = 0, moment = 0;
   mass[0] = 0;
   for (std::size_t b = 0; b < bin_count_; ++b) {
-    const double width = sums_[2 * b] / total, rise = sums_[2 * b + 1] / total;
+    const double width = sums[2 * b] / total, rise = sums[2 * b + 1] / total;
     below += width;
     mass[b + 1] = static_cast<float>(below);
     moment_[first + b] = static_cast<float>(moment);

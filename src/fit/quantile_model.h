@@ -70,6 +70,13 @@ void sample_weighted_target(const LobeFrame& frame, const TargetLattice& lattice
 void sample_rejection_target(const LobeFrame& frame, std::size_t count, std::uint64_t seed,
                              TargetSamples& samples);
 
+// What of a target its quantiles are made from, small enough to keep for every lobe of a table: for
+// each direction the bins' place and each bin's weight and weighted sum of projections.
+struct BinnedTarget {
+  std::vector<float> values;  // direction-major: centre, 1 / scale, pairs (w, w xi)
+  double spread = 0;
+};
+
 // The target seen along a set of directions: for each, mass and first moment of the lobe below
 // every bin edge.
 class TargetQuantiles {
@@ -77,6 +84,11 @@ class TargetQuantiles {
   // Bins `samples` along every direction. Keeps no reference to its arguments.
   void build(const TargetSamples& samples, const std::vector<Eigen::Vector3f>& directions,
              std::size_t bin_count, AlignedFloats& xi, AlignedVector<std::int32_t>& bins);
+
+  // What build() found, and back again, for the same directions and number of bins.
+  void keep(BinnedTarget& binned) const;
+  void rebuild(const BinnedTarget& binned, const std::vector<Eigen::Vector3f>& directions,
+               std::size_t bin_count);
 
   std::size_t direction_count() const { return maps_.size(); }
   std::size_t bin_count() const { return bin_count_; }
@@ -88,6 +100,7 @@ class TargetQuantiles {
   kernels::TargetCells cells(std::size_t direction) const;
 
  private:
+  void reserve(std::size_t directions, std::size_t bin_count);
   void cut_into_cells(std::size_t direction);
 
   std::size_t bin_count_ = 0;
@@ -97,7 +110,8 @@ class TargetQuantiles {
   // Direction-major, see kernels::TargetCells; `mass_` one longer a direction than the others.
   AlignedFloats mass_, moment_, inverse_width_, c1_, c2_, c3_;
   AlignedVector<std::int32_t> first_cell_;
-  AlignedFloats sums_, pairs_;
+  AlignedFloats sums_;   // pairs (w, w xi), direction-major
+  AlignedFloats pairs_;  // of the samples
 };
 
 struct ModelValue {

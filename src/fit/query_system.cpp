@@ -83,6 +83,7 @@ QuerySystem::QuerySystem(const Grid& grid, Storage storage, const std::vector<bo
   }
   models_.resize(queries_.size());
   evaluated_.resize(queries_.size());
+  targets_.resize(queries_.size());
 }
 
 void QuerySystem::make_sets(const QuerySampling& sampling, double shift) {
@@ -99,13 +100,23 @@ void QuerySystem::make_sets(const QuerySampling& sampling, double shift) {
   }
 }
 
-void QuerySystem::evaluate_query(const Query& query, const Eigen::Matrix3d& interpolated,
-                                 Buffers& buffers, Model& model) const {
-  const LobeFrame frame(query.lobe);
-  const SampleSet& set = sets_[query.set];
+void QuerySystem::see_target(const LobeFrame& frame, const SampleSet& set, Buffers& buffers,
+                             BinnedTarget& binned) const {
+  if (!binned.values.empty()) {
+    buffers.quantiles.rebuild(binned, set.directions, bins);
+    return;
+  }
   sample_weighted_target(frame, set.lattice, buffers.target);
   buffers.quantiles.build(buffers.target, set.directions, bins, buffers.model.xi,
                           buffers.model.bins);
+  buffers.quantiles.keep(binned);
+}
+
+void QuerySystem::evaluate_query(const Query& query, const Eigen::Matrix3d& interpolated,
+                                 BinnedTarget& binned, Buffers& buffers, Model& model) const {
+  const LobeFrame frame(query.lobe);
+  const SampleSet& set = sets_[query.set];
+  see_target(frame, set, buffers, binned);
   const FrameOfStored map = frame_of_stored(storage_, frame);
   const Eigen::Matrix3d p = map.left * interpolated * map.right;
   const double spread = buffers.quantiles.spread(), share = query.weight / spread;
@@ -142,7 +153,7 @@ double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, int thr
           if (queries_[q].weights[corner] != 0)
             interpolated += queries_[q].weights[corner] * stored[cell.nodes[corner]];
         evaluated_[q].loss = models_[q].loss;
-        evaluate_query(queries_[q], interpolated, buffers, evaluated_[q]);
+        evaluate_query(queries_[q], interpolated, targets_[q], buffers, evaluated_[q]);
       }
       if (progress)
         progress->advance(cell.last - cell.first);
@@ -186,7 +197,7 @@ void QuerySystem::multiply(const NodeVectors& step, NodeVectors& result, int thr
                     for (std::size_t corner = 0; corner < 16; ++corner)
                       interpolated += query.weights[corner] * step[cell.nodes[corner]];
                     Vector9 pulled;
-                    pulled.noalias() = model.curvature * interpolated;
+                    pulled = model.curvature.lazyProduct(interpolated);
                     for (std::size_t corner = 0; corner < 16; ++corner)
                       sums[corner] += query.weights[corner] * pulled;
                   });

@@ -76,8 +76,11 @@ class QuerySystem {
   };
 
   void make_sets(const QuerySampling& sampling, double shift);
-  void evaluate_query(const Query& query, const Eigen::Matrix3d& interpolated, Buffers& buffers,
-                      Model& model) const;
+  // The query's target: measured the first time, and kept, for it does not change.
+  void see_target(const LobeFrame& frame, const SampleSet& set, Buffers& buffers,
+                  BinnedTarget& binned) const;
+  void evaluate_query(const Query& query, const Eigen::Matrix3d& interpolated, BinnedTarget& binned,
+                      Buffers& buffers, Model& model) const;
   // Sums at every node what `fill` adds to the corners of its cells.
   template <typename Value, typename Fill>
   void gather(std::vector<Value>& result, int threads, const Value& zero, Fill&& fill) const;
@@ -93,6 +96,7 @@ class QuerySystem {
   std::vector<Cell> cells_;
   std::vector<std::vector<Corner>> corners_of_node_;
   std::vector<Model> models_, evaluated_;
+  std::vector<BinnedTarget> targets_;
 };
 
 }  // namespace ltc

@@ -16,9 +16,10 @@ namespace {
 // Damping falls after a step that was taken and rises after one that was not.
 constexpr double damping_fall = 0.4, damping_rise = 6, least_damping = 1e-3;
 
-// No node's matrix comes nearer to a singular one than this share of its determinant: a shader in
-// half precision must still be able to tell its sign.
-constexpr double least_determinant_share = 0.1;
+// No node's matrix comes nearer to a singular one than this share of its determinant, nor do its
+// columns, unless the fit was there already: rounded to half precision, with entries off by 2^-11
+// of them, it must still have a determinant of the same sign, and some digits of it.
+constexpr double least_determinant_share = 0.1, least_solid_angle = 0.01;
 
 // Sets of samples that the held-out queries do not share with those refined on.
 constexpr double refined_shift = 0.0, held_out_shift = 0.4321;
@@ -128,15 +129,16 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
   const double judged =
       static_cast<double>(judge.size()) / static_cast<double>(held_out.lobes.size());
   report.loss_before = report.loss_after = judge.evaluate(stored, threads, progress) / judged;
-  std::vector<double> least_determinants;
+  std::vector<DeterminantBound> bounds;
   for (const Eigen::Matrix3d& matrix : current)
-    least_determinants.push_back(least_determinant_share * matrix.determinant());
+    bounds.push_back({least_determinant_share * matrix.determinant(),
+                      std::min(least_solid_angle, solid_angle_of_columns(matrix))});
   double damping = settings.damping;
   while (report.steps < settings.steps) {
     ++report.steps;
     const NodeVectors step =
         refinement_step(queries, space, current, damping, settings.overshoot, threads);
-    const std::vector<Eigen::Matrix3d> trial = stepped(current, step, least_determinants);
+    const std::vector<Eigen::Matrix3d> trial = stepped(current, step, bounds);
     const double next = queries.evaluate(trial, threads, progress);
     if (!(next < objective)) {
       damping *= damping_rise;
@@ -164,8 +166,8 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
 std::vector<double> node_losses(const Grid& grid, Storage storage,
                                 const std::vector<bool>& has_values,
                                 const std::vector<Eigen::Matrix3d>& stored, int threads) {
-  const CosineSet cosines = make_cosine_set(4096);
-  const TargetLattice lattice = make_target_lattice(8192, 0.3);
+  const CosineSet cosines = make_cosine_set(2048);
+  const TargetLattice lattice = make_target_lattice(4096, 0.3);
   const std::vector<Eigen::Vector3f> directions = in_float(fibonacci_directions(32));
   constexpr std::size_t bins = 64;
   std::vector<double> losses(grid.size(), std::numeric_limits<double>::quiet_NaN());

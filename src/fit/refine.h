@@ -44,7 +44,7 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
                     const RefineSettings& settings, int threads, Progress* progress,
                     std::vector<Eigen::Matrix3d>& stored);
 
-// The sliced-Wasserstein loss of every node's own lobe at `stored`, as the solvers measure it (4096
+// The sliced-Wasserstein loss of every node's own lobe at `stored`, as the solvers measure it (2048
 // samples, 32 directions); NaN where a node has no values.
 std::vector<double> node_losses(const Grid& grid, Storage storage,
                                 const std::vector<bool>& has_values,

@@ -11,20 +11,20 @@ namespace ltc {
 // query is not in its neighbours, which are measured with other sets.
 struct QuerySampling {
   int samples = 512;          // cosine samples, [64, 65536]
-  int directions = 16;        // projection directions, [4, 4096]
-  int target_samples = 2048;  // weighted GGX samples, [64, 1048576]
+  int directions = 8;         // projection directions, [4, 4096]
+  int target_samples = 1024;  // weighted GGX samples, [64, 1048576]
 };
 
 struct RefineSettings {
-  int steps = 0;                // most outer steps, [0, 1000]; 0 for no refinement
+  int steps = 10;               // most outer steps, [0, 1000]; 0 for no refinement
   int queries_per_cell = 8;     // refined on, on average, [1, 1000]
   double table_share = 0.1;     // of them uniform in the table's own axes, not as asked for, [0, 1]
-  double node_weight = 0.05;    // share of the objective that the nodes' own lobes have, [0, 1]
+  double node_weight = 0.02;    // share of the objective that the nodes' own lobes have, [0, 1]
   int held_out_queries = 2000;  // not refined on: they decide what is kept, [100, 1000000]
   double damping = 0.05;        // first mu, (0, 1e6]
-  double overshoot = 1.5;       // steps are taken this many times as long as the model says, (0, 1.9]
-  double tolerance = 5e-4;      // ends when a step gains less than this share of the loss, [0, 1]
-  bool keep_smoothest = true;   // nodes with alpha <= alpha_min stay as they are
+  double overshoot = 1.5;   // steps are taken this many times as long as the model says, (0, 1.9]
+  double tolerance = 5e-4;  // ends when a step gains less than this share of the loss, [0, 1]
+  bool keep_smoothest = false;  // nodes with alpha <= alpha_min stay as they are
   QuerySampling sampling;
   QueryRange range;  // what is asked for where no scene says so
 };

@@ -55,21 +55,23 @@ void post_process_all(const Grid& grid, const std::vector<FittedEntry>& entries,
 }
 
 // Moves the nodes' matrices for the sake of what lies between them, and states their losses anew.
-RefineReport refine_nodes(const Config& config, const std::vector<QueryRange>& asked, int threads,
+RefineReport refine_nodes(const Config& config, const RefineContext& context, int threads,
                           Progress* progress, Table& table) {
   const std::size_t count = table.grid.size();
   std::vector<Eigen::Matrix3d> stored(count);
   std::vector<bool> present(count), movable(count);
   for (std::size_t flat = 0; flat < count; ++flat) {
     const double alpha = table.grid.alpha.nodes[table.grid.node(flat).alpha];
-    stored[flat] = table.stored_at(flat);
-    present[flat] = has_values(table.status[flat]);
-    movable[flat] =
-        present[flat] && !(config.refine.keep_smoothest && alpha <= table.grid.alpha_min);
+    const bool made = has_values(table.status[flat]);
+    const bool kept = !made && context.existing && has_values(context.existing->status[flat]);
+    stored[flat] = (kept ? *context.existing : table).stored_at(flat);
+    present[flat] = made || kept;
+    movable[flat] = made && !(config.refine.keep_smoothest && alpha <= table.grid.alpha_min);
   }
-  const RefineReport report = refine(table.grid, table.storage, present, movable,
-                                     asked.empty() ? std::vector{config.refine.range} : asked,
-                                     config.refine, threads, progress, stored);
+  const RefineReport report =
+      refine(table.grid, table.storage, present, movable,
+             context.asked.empty() ? std::vector{config.refine.range} : context.asked,
+             config.refine, threads, progress, stored);
   if (!report.kept)
     return report;
   for (std::size_t flat = 0; flat < count; ++flat)
@@ -114,7 +116,7 @@ Table generate_table(const Config& config, int threads, Progress* progress,
 
 Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
                      Progress* progress, GenerateReport* report, FitJournal* journal,
-                     const std::vector<QueryRange>& asked) {
+                     const RefineContext& context) {
   GenerateReport unread;
   GenerateReport& result = report ? *report : unread;
   auto lap = std::chrono::steady_clock::now();
@@ -141,7 +143,7 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
   post_process_all(config.grid, entries, table, result);
   finish_stage("post-process");
   if (config.refine.steps > 0) {
-    result.refine = refine_nodes(config, asked, threads, progress, table);
+    result.refine = refine_nodes(config, context, threads, progress, table);
     finish_stage("refine");
   }
   integrate_albedos(config.grid, needed, threads, progress, table);

@@ -27,13 +27,19 @@ struct GenerateReport {
 
 class FitJournal;  // fit/fit_journal.h
 
+// What a refinement goes by beside the config.
+struct RefineContext {
+  std::vector<QueryRange> asked;    // what it serves; the config's range where there are none
+  const Table* existing = nullptr;  // a table of the same grid that is extended: its entries take
+                                    // part in look-ups and stay as they are
+};
+
 // Makes the entries of `config`'s table that are `needed` (one flag a node) with `threads` >= 1
 // OpenMP threads; the same bits for any number. Throws InputError for a config that cannot be met,
-// Interrupted when progress asked for a stop. `journal` as for fit_table. A refinement serves
-// queries from `asked`; from the config's range where there are none.
+// Interrupted when progress asked for a stop. `journal` as for fit_table.
 Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
                      Progress* progress, GenerateReport* report, FitJournal* journal = nullptr,
-                     const std::vector<QueryRange>& asked = {});
+                     const RefineContext& context = {});
 
 // The whole table.
 Table generate_table(const Config& config, int threads, Progress* progress, GenerateReport* report);

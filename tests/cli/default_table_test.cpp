@@ -21,6 +21,8 @@
 #include "support/broken_table.h"
 #include "support/program.h"
 #include "support/table_faults.h"
+#include "table/lookup.h"
+#include "table/queries.h"
 #include "validate/comparison_summary.h"
 #include "validate/held_out.h"
 
@@ -237,13 +239,15 @@ void expect_sound(const fs::path& folder) {
 // One test, since the table takes some seconds and tests share nothing.
 TEST(DefaultTable, IsWholeReadableAndNearTheReference) {
   const TemporaryDirectory folder;
-  const ProgramResult result =
-      run_ltcfit({"generate", "--output", folder.path().string()}, folder.path());
+  const ProgramResult result = run_ltcfit(
+      {"generate", "--output", folder.path().string(), "--set", "refine.steps=0"}, folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   expect_summary(result.out);
   const Table table = read_hdf5(folder / "ltc.h5");
   EXPECT_EQ(table.grid, Grid::paper(8));
-  EXPECT_EQ(table.config, to_toml(Config{}));
+  Config config;
+  config.refine.steps = 0;
+  EXPECT_EQ(table.config, to_toml(config));
   EXPECT_EQ(count(table, Status::fitted), 2850u);
   EXPECT_EQ(count(table, Status::analytic), 7u);
   EXPECT_EQ(count(table, Status::copied), 1239u);
@@ -252,6 +256,56 @@ TEST(DefaultTable, IsWholeReadableAndNearTheReference) {
   expect_readable_by_others(folder.path());
   expect_near_reference(table);
   expect_sound(folder.path());
+}
+
+// ---- Refined ----
+
+double mean_relative_loss(const Table& table, const std::vector<GgxLobe>& lobes) {
+  HeldOutJudge judge(2048, 16);
+  double sum = 0;
+  for (const GgxLobe& lobe : lobes) {
+    judge.set_lobe(lobe);
+    sum += judge.loss(look_up(table, lobe).matrix) / judge.spread();
+  }
+  return sum / static_cast<double>(lobes.size());
+}
+
+double mean_node_loss(const Table& table) {
+  HeldOutJudge judge(1024, 16);
+  double sum = 0;
+  for (std::size_t flat = 0; flat < table.grid.size(); flat += 5) {
+    judge.set_lobe(table.grid.lobe(table.grid.node(flat)));
+    sum += judge.loss(table.matrix_at(flat));
+  }
+  return sum;
+}
+
+// What `ltcfit generate` makes without options.
+TEST(DefaultTable, RefinedIsWholeReadableAndNearGgxBetweenTheNodes) {
+  const TemporaryDirectory folder;
+  const auto generate = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"generate"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_ltcfit(arguments, folder.path());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  const std::string out = generate({});
+  expect_summary(out);
+  EXPECT_NE(out.find("refined  "), std::string::npos) << out;
+  const Table table = read_hdf5(folder / "out/ltc.h5");
+  EXPECT_EQ(table.config, to_toml(Config{}));
+  EXPECT_EQ(faults_of(table), std::vector<std::string>{});
+  expect_agreeing_files(table, folder / "out");
+  expect_readable_by_others(folder / "out");
+  generate({"--set", "refine.steps=0", "-o", "fitted"});
+  const Table fitted = read_hdf5(folder / "fitted/ltc.h5");
+  // Queries that no refinement has seen. Measured over 2,400: 0.078 against 0.112; 300 of them tell
+  // the ratio to some 4 %.
+  const std::vector<GgxLobe> lobes = random_queries({}, 300, 77, table.grid.alpha_min);
+  EXPECT_LT(mean_relative_loss(table, lobes), 0.80 * mean_relative_loss(fitted, lobes));
+  // The price at the nodes; measured over all: 1.17.
+  EXPECT_LT(mean_node_loss(table), 1.25 * mean_node_loss(fitted));
 }
 
 }  // namespace

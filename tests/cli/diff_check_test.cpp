@@ -86,7 +86,7 @@ TEST(DiffTolerance, TwoRunsOfOneConfigDifferByNothing) {
     const ProgramResult made = run_ltcfit(
         {"generate", "--output", output, "--set", "table.alpha.nodes=2", "--set",
          "table.lambda.nodes=2", "--set", "table.theta.nodes=3", "--set", "table.phi.nodes=2",
-         "--set", "fit.target=rejection", "--set", "fit.seed=" + seed},
+         "--set", "fit.target=rejection", "--set", "refine.steps=0", "--set", "fit.seed=" + seed},
         folder.path());
     EXPECT_EQ(made.exit_code, 0) << made.err;
   };

@@ -49,11 +49,13 @@ double mean_relative_loss(const Table& table) {
 
 TEST(RefineProgram, BettersWhatLiesBetweenTheNodes) {
   const TemporaryDirectory folder;
-  const ProgramResult fitted = run_ltcfit(generate({"-o", "fitted"}), folder.path());
+  const ProgramResult fitted =
+      run_ltcfit(generate({"-o", "fitted", "--set", "refine.steps=0"}), folder.path());
   ASSERT_EQ(fitted.exit_code, 0) << fitted.err;
   EXPECT_EQ(fitted.out.find("refined "), std::string::npos);
-  const ProgramResult result =
-      run_ltcfit(generate({"-o", "refined", "--set", "refine.steps=4"}), folder.path());
+  const ProgramResult result = run_ltcfit(
+      generate({"-o", "refined", "--set", "refine.steps=4", "--set", "refine.keep_smoothest=true"}),
+      folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("refined  4 steps over "), std::string::npos) << result.out;
   const Table before = read_hdf5(folder / "fitted/ltc.h5"),
@@ -82,14 +84,32 @@ TEST(RefineProgram, ServesAScene) {
   EXPECT_TRUE(std::isfinite(look_up(table, {0.7, 0.5, 0.8, 0.4}).matrix.sum()));
 }
 
-TEST(RefineProgram, RefusesToRefineAnExtendedTable) {
+TEST(RefineProgram, MovesOnlyWhatAnExtensionAdds) {
   const TemporaryDirectory folder;
-  ASSERT_EQ(run_ltcfit(generate({"-o", "old"}), folder.path()).exit_code, 0);
-  const ProgramResult result = run_ltcfit(
-      generate({"--extend", "old/ltc.h5", "--set", "refine.steps=2", "-o", "new"}), folder.path());
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("refine.steps = 2"), std::string::npos) << result.err;
-  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"old"});
+  folder.write("scene.toml",
+               "[[material]]\nname = \"m\"\nalpha_x = [0.55, 0.9]\nalpha_y = [0.5, 0.6]\n");
+  const auto run = [&](const std::vector<std::string>& more) {
+    const ProgramResult result = run_ltcfit(generate(more), folder.path());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+  };
+  run({"--scene", "scene.toml", "--set", "refine.steps=2", "-o", "old"});
+  run({"--extend", "old/ltc.h5", "--set", "refine.steps=2", "-o", "new"});
+  run({"--extend", "old/ltc.h5", "--set", "refine.steps=0", "-o", "unrefined"});
+  const Table old = read_hdf5(folder / "old/ltc.h5"), table = read_hdf5(folder / "new/ltc.h5"),
+              unrefined = read_hdf5(folder / "unrefined/ltc.h5");
+  std::size_t kept = 0, moved = 0;
+  for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
+    ASSERT_TRUE(has_values(table.status[flat])) << flat;
+    if (has_values(old.status[flat])) {
+      EXPECT_EQ(table.matrix_at(flat), old.matrix_at(flat)) << flat;
+      ++kept;
+    } else {
+      moved += table.matrix_at(flat) != unrefined.matrix_at(flat);
+    }
+  }
+  EXPECT_EQ(kept, 36u);  // two values of alpha and of lambda with all nine views
+  EXPECT_GT(moved, 30u);
+  EXPECT_LT(mean_relative_loss(table), mean_relative_loss(unrefined));
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ fs::path shipped(const std::string& name) {
 }
 
 std::vector<std::string> generate(std::vector<std::string> more) {
-  std::vector<std::string> arguments = {"generate"};
+  std::vector<std::string> arguments = {"generate", "--set", "refine.steps=0"};
   arguments.insert(arguments.end(), rough_fit.begin(), rough_fit.end());
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;

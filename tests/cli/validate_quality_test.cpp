@@ -38,7 +38,8 @@ class ValidateQuality : public ::testing::Test {
     folder_ = new TemporaryDirectory;
     const ProgramResult made = run_ltcfit(
         {"generate", "--output", folder_->path().string(), "--set", "table.alpha.nodes=3", "--set",
-         "table.lambda.nodes=3", "--set", "table.theta.nodes=3", "--set", "table.phi.nodes=3"});
+         "table.lambda.nodes=3", "--set", "table.theta.nodes=3", "--set", "table.phi.nodes=3",
+         "--set", "refine.steps=0"});
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }
   static void TearDownTestSuite() {

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 const std::vector<std::string> four_nodes = {
-    "--set", "table.alpha.nodes=4", "--set", "table.lambda.nodes=4",
-    "--set", "table.theta.nodes=4", "--set", "table.phi.nodes=4"};
+    "--set", "table.alpha.nodes=4", "--set", "table.lambda.nodes=4", "--set", "table.theta.nodes=4",
+    "--set", "table.phi.nodes=4",   "--set", "refine.steps=0"};
 
 // A table of 256 entries, made by the program once for all tests.
 class Validate : public ::testing::Test {

@@ -26,6 +26,7 @@ Config config_of(Storage storage) {
   config.grid.lambda = Axis::make(0.3, 0.6, 2, Warp::linear);
   config.grid.theta = Axis::make(0.6, 1.2, 2, Warp::linear);
   config.grid.phi = Axis::make(0.4, 1.1, 2, Warp::linear);
+  config.refine.steps = 0;
   return config;
 }
 

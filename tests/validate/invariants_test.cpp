@@ -22,6 +22,7 @@ Config small_config(Storage storage) {
   Config config;
   config.grid = Grid::paper(4);
   config.storage = storage;
+  config.refine.steps = 0;  // every node a lobe of its own
   return config;
 }
 

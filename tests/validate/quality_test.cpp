@@ -25,6 +25,7 @@ const Table& small_table() {
   static const Table table = [] {
     Config config = load_config(std::nullopt, {});
     config.grid = Grid::paper(4);
+    config.refine.steps = 0;
     return generate_table(config, 2, nullptr, nullptr);
   }();
   return table;
@@ -218,6 +219,7 @@ TEST(Quality, RefusesToJudgeByNothing) {
 TEST(Quality, LossesAgreeWithThoseOfTenTimesTheSamples) {
   Config config = load_config(std::nullopt, {});
   config.grid = Grid::paper({8, 2, 3, 2});
+  config.refine.steps = 0;
   const Table table = generate_table(config, 2, nullptr, nullptr);
   QualitySettings settings;
   settings.queries = 20;
