@@ -94,7 +94,7 @@ void TargetQuantiles::build(const TargetSamples& samples,
     unit_edges_.resize(bin_count + 1);
     for (std::size_t j = 0; j <= bin_count; ++j) {
       const double t = 2.0 * static_cast<double>(j) / static_cast<double>(bin_count) - 1;
-      unit_edges_[j] = t / std::sqrt(1 - t * t);
+      unit_edges_[j] = t / std::sqrt((1 - t) * (1 + t));
     }
   }
   maps_.resize(directions.size());
