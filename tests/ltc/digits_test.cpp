@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -15,7 +16,6 @@
 #include "ltc/ltsd.h"
 #include "ltc/polygon.h"
 #include "support/wide.h"
-#include "validate/matrix_invariants.h"
 
 namespace ltc {
 namespace {
@@ -154,6 +154,11 @@ std::vector<LobeFrame> frames() {
       for (const double theta : {0.0, 1e-3, 0.7, 1.4, radians_of_degrees(89.999)})
         frames.emplace_back(GgxLobe{alpha_x, alpha_y, theta, 0.7});
   return frames;
+}
+
+double condition_number(const Eigen::Matrix3d& matrix) {
+  const auto values = Eigen::JacobiSVD<Eigen::Matrix3d>(matrix).singularValues().eval();
+  return values.x() / values.z();
 }
 
 // The density at directions of the lobe, by the inverse of M: (7) as printed, with 19 digits.
