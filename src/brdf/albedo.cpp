@@ -22,7 +22,7 @@ struct AlbedoLobe {
   float alpha_x, alpha_y;
   float vx, vy, vz;
   float stretched_x, stretched_y;  // stretched view direction of unit length
-  float one_plus_stretched_z;
+  float one_plus_stretched_z, one_minus_stretched_z;
   float one_plus_lambda_v;
 };
 
@@ -43,11 +43,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 Albedo AlbedoKernel(const AlbedoLobe& lobe, const AlbedoRule& rule) {
   const hn::CappedTag<float, AlbedoRule::block_size> d;
   const std::size_t lanes = hn::Lanes(d);
-  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const auto alpha_x = hn::Set(d, lobe.alpha_x), alpha_y = hn::Set(d, lobe.alpha_y);
   const auto vx = hn::Set(d, lobe.vx), vy = hn::Set(d, lobe.vy), vz = hn::Set(d, lobe.vz);
   const auto stretched_x = hn::Set(d, lobe.stretched_x), stretched_y = hn::Set(d, lobe.stretched_y);
   const auto depth_of_cap = hn::Set(d, lobe.one_plus_stretched_z);
+  const auto below_cap = hn::Set(d, lobe.one_minus_stretched_z);
   const auto two_a = hn::Set(d, 2 * lobe.one_plus_lambda_v);
 
   // Single-precision partial sums over a stretch of points, then double over the stretches.
@@ -60,12 +61,12 @@ Albedo AlbedoKernel(const AlbedoLobe& lobe, const AlbedoRule& rule) {
       for (std::size_t lane = 0; lane < AlbedoRule::block_size; lane += lanes) {
         const std::size_t i = block + lane;
         const auto depth = hn::Mul(hn::LoadU(d, &rule.height[i]), depth_of_cap);
-        const auto sine = hn::Sqrt(hn::Mul(depth, hn::Sub(two, depth)));
+        const auto hz = hn::Mul(hn::LoadU(d, &rule.one_minus_height[i]), depth_of_cap);
+        const auto sine = hn::Sqrt(hn::Mul(depth, hn::Add(hz, below_cap)));
         const auto hx = hn::Mul(
             alpha_x, hn::Add(hn::Mul(sine, hn::LoadU(d, &rule.cos_azimuth[i])), stretched_x));
         const auto hy = hn::Mul(
             alpha_y, hn::Add(hn::Mul(sine, hn::LoadU(d, &rule.sin_azimuth[i])), stretched_y));
-        const auto hz = hn::Mul(hn::LoadU(d, &rule.one_minus_height[i]), depth_of_cap);
         const auto h_squared = hn::Add(hn::Add(hn::Mul(hx, hx), hn::Mul(hy, hy)), hn::Mul(hz, hz));
         const auto v_dot_h =
             hn::Max(hn::Add(hn::Add(hn::Mul(vx, hx), hn::Mul(vy, hy)), hn::Mul(vz, hz)), zero);
@@ -128,15 +129,17 @@ Albedo integrate_albedo(const GgxLobe& lobe, const AlbedoRule& rule) {
   const Eigen::Vector3d v = lobe.omega_v();
   const Eigen::Vector3d stretched =
       Eigen::Vector3d(lobe.alpha_x * v.x(), lobe.alpha_y * v.y(), v.z()).normalized();
-  const AlbedoLobe arguments{static_cast<float>(lobe.alpha_x),
-                             static_cast<float>(lobe.alpha_y),
-                             static_cast<float>(v.x()),
-                             static_cast<float>(v.y()),
-                             static_cast<float>(v.z()),
-                             static_cast<float>(stretched.x()),
-                             static_cast<float>(stretched.y()),
-                             static_cast<float>(1 + stretched.z()),
-                             static_cast<float>(1 + ggx_lambda(lobe.alpha_x, lobe.alpha_y, v))};
+  const AlbedoLobe arguments{
+      static_cast<float>(lobe.alpha_x),
+      static_cast<float>(lobe.alpha_y),
+      static_cast<float>(v.x()),
+      static_cast<float>(v.y()),
+      static_cast<float>(v.z()),
+      static_cast<float>(stretched.x()),
+      static_cast<float>(stretched.y()),
+      static_cast<float>(1 + stretched.z()),
+      static_cast<float>(stretched.head<2>().squaredNorm() / (1 + stretched.z())),
+      static_cast<float>(1 + ggx_lambda(lobe.alpha_x, lobe.alpha_y, v))};
   return HWY_DYNAMIC_DISPATCH(AlbedoKernel)(arguments, rule);
 }
 

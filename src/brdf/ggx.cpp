@@ -65,6 +65,8 @@ GgxSampler::GgxSampler(const GgxLobe& lobe)
       mirror_(-omega_v_.x(), -omega_v_.y(), omega_v_.z()),
       stretched_v_(Eigen::Vector3d(alpha_x_ * omega_v_.x(), alpha_y_ * omega_v_.y(), omega_v_.z())
                        .normalized()),
+      one_minus_stretched_z_((square(stretched_v_.x()) + square(stretched_v_.y())) /
+                             (1 + stretched_v_.z())),
       lambda_v_(ggx_lambda(alpha_x_, alpha_y_, omega_v_)) {
   // vz (1 + Lambda) = (vz + sqrt(vz^2 + s^2))/2.
   const double s_squared = stretched_sine_squared(alpha_x_, alpha_y_, omega_v_);
@@ -105,14 +107,15 @@ Eigen::Vector3d GgxSampler::visible_normal(double u_azimuth, double u_height) co
 
 // The cap is the part of the unit sphere with z > -v_z (v the stretched view direction). For a
 // point c uniform on it c + v has the direction of a visible normal at unit roughness, and
-// c_z + v_z = (1 - u)(1 + v_z), 1 - c_z = u (1 + v_z) need no subtraction of near numbers.
+// c_z + v_z = (1 - u)(1 + v_z), 1 - c_z = u (1 + v_z) and 1 + c_z = (c_z + v_z) + (1 - v_z) need no
+// subtraction of near numbers.
 Eigen::Vector3d GgxSampler::visible_normal(double cos_azimuth, double sin_azimuth,
                                            double u_height) const {
   const double depth = u_height * (1 + stretched_v_.z());
-  const double sine = std::sqrt(depth * (2 - depth));
+  const double above_rim = (1 - u_height) * (1 + stretched_v_.z());
+  const double sine = std::sqrt(depth * (above_rim + one_minus_stretched_z_));
   return Eigen::Vector3d(alpha_x_ * (sine * cos_azimuth + stretched_v_.x()),
-                         alpha_y_ * (sine * sin_azimuth + stretched_v_.y()),
-                         (1 - u_height) * (1 + stretched_v_.z()))
+                         alpha_y_ * (sine * sin_azimuth + stretched_v_.y()), above_rim)
       .normalized();
 }
 

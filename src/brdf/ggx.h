@@ -102,6 +102,7 @@ class GgxSampler {
   double alpha_x_, alpha_y_;
   Eigen::Vector3d omega_v_, mirror_;
   Eigen::Vector3d stretched_v_;  // omega_v stretched to unit roughness, of unit length
+  double one_minus_stretched_z_;
   double lambda_v_;              // Lambda(omega_v)
   double vz_one_plus_lambda_v_;  // vz (1 + Lambda(omega_v)), finite at the horizon too
 };

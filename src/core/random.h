@@ -29,7 +29,7 @@ class Random {
   Eigen::Vector3d direction() {
     const double z = 2 * uniform() - 1;
     const double azimuth = 2 * std::numbers::pi * uniform();
-    const double radius = std::sqrt(1 - z * z);
+    const double radius = std::sqrt((1 - z) * (1 + z));
     return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
   }
 

@@ -193,7 +193,8 @@ void store_jacobians(const ProjectionMap& map, const float* sums, std::size_t bi
   const auto used = hn::FirstN(d, 9);
   for (std::size_t b = 0; b < bin_count; ++b) {
     const V sum = hn::Load(d, sums + b * row_width);
-    const V jacobian = hn::MulSub(factors, hn::TableLookupLanes(sum, indices), sum);
+    // Not fused, like jacobian_of_sums: the same bits.
+    const V jacobian = hn::Sub(hn::Mul(factors, hn::TableLookupLanes(sum, indices)), sum);
     hn::Store(hn::IfThenElseZero(used, jacobian), d, jacobians + b * row_width);
   }
 #else
@@ -225,7 +226,8 @@ void reduce_direction(const ProjectionMap& map, const float* sums, const std::in
   }
   for (std::size_t b = 0; b < bin_count; b += lanes)
     hn::Store(integrated_quantile(target, bin_count, hn::Load(d, pulls + b)), d, integral + b);
-  V loss = hn::Zero(d);
+  // Sixteen sums, whatever the vector's length: the same bits.
+  HWY_ALIGN float losses[row_width] = {};
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), epsilon = hn::Set(d, smoothing);
   const V total = hn::Set(d, static_cast<float>(count));
   float previous = 0;
@@ -243,7 +245,8 @@ void reduce_direction(const ProjectionMap& map, const float* sums, const std::in
     const V difference = hn::IfThenZeroElse(empty, hn::Sub(hn::Load(d, xi_sums + b), target_sum));
     const V residual = hn::Mul(difference, inverse);
     const V weight = hn::Div(one, hn::Add(hn::Abs(residual), epsilon));
-    loss = hn::Add(loss, hn::Abs(difference));
+    float* const loss = losses + b % row_width;
+    hn::Store(hn::Add(hn::Load(d, loss), hn::Abs(difference)), d, loss);
     hn::Store(hn::Mul(residual, weight), d, pulls + b);
     hn::Store(hn::IfThenZeroElse(empty, hn::Mul(weight, inverse)), d, factors + b);
   }
@@ -275,7 +278,8 @@ void reduce_direction(const ProjectionMap& map, const float* sums, const std::in
     for (std::size_t row = 0; row < 9; ++row)
       hn::Store(hessian[row * parts + part], d, result.hessian + row * row_width + part * lanes);
   }
-  result.loss += hn::GetLane(hn::SumOfLanes(d, loss));
+  for (const float loss : losses)
+    result.loss += static_cast<double>(loss);
 }
 
 void sample_target(const TargetParameters& parameters, const float* cos_azimuth,

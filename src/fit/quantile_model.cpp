@@ -92,7 +92,7 @@ void TargetQuantiles::reserve(std::size_t directions, std::size_t bin_count) {
     unit_edges_.resize(bin_count + 1);
     for (std::size_t j = 0; j <= bin_count; ++j) {
       const double t = 2.0 * static_cast<double>(j) / static_cast<double>(bin_count) - 1;
-      unit_edges_[j] = t / std::sqrt(1 - t * t);
+      unit_edges_[j] = t / std::sqrt((1 - t) * (1 + t));
     }
   }
   maps_.resize(directions);

@@ -69,7 +69,7 @@ std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count) {
     const double z = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     const double azimuth =
         2 * std::numbers::pi * fraction(static_cast<double>(i) / std::numbers::phi);
-    const double radius = std::sqrt(1 - z * z);
+    const double radius = std::sqrt((1 - z) * (1 + z));
     directions[i] = {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
   }
   return directions;

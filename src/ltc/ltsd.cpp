@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -19,17 +18,24 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The cosine to z that a share u of the distribution lies above.
-double sample_cosine(Original original, double u) {
+// Cosine and sine of the angle to z within which a share u of the distribution lies. Near the axis
+// (1 - z)(1 + z) has the digits that z leaves of u, so the sines are written in u itself.
+struct Polar {
+  double cosine, sine;
+};
+Polar sample_polar(Original original, double u) {
   switch (original) {
     case Original::uniform_sphere:
-      return 1 - 2 * u;
+      return {1 - 2 * u, 2 * std::sqrt(u * (1 - u))};
     case Original::uniform_hemisphere:
-      return 1 - u;
+      return {1 - u, std::sqrt(u * (2 - u))};
     case Original::clamped_cosine:
-      return std::sqrt(1 - u);
-    case Original::squared_clamped_cosine:
-      return std::cbrt(1 - u);
+      return {std::sqrt(1 - u), std::sqrt(u)};
+    case Original::squared_clamped_cosine: {
+      // 1 - z = (1 - z^3)/(1 + z + z^2).
+      const double z = std::cbrt(1 - u);
+      return {z, std::sqrt(u * (1 + z) / (1 + z + z * z))};
+    }
   }
   throw InputError("unknown original distribution");
 }
@@ -67,10 +73,9 @@ double original_density(Original original, const Eigen::Vector3d& omega_o) {
 }
 
 Eigen::Vector3d sample_original(Original original, double u_height, double u_azimuth) {
-  const double z = sample_cosine(original, u_height);
-  const double sine = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));
+  const auto [cosine, sine] = sample_polar(original, u_height);
   const double azimuth = 2 * kPi * u_azimuth;
-  return {sine * std::cos(azimuth), sine * std::sin(azimuth), z};
+  return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
 }
 
 LinearlyTransformed::LinearlyTransformed(const Eigen::Matrix3d& matrix, Original original)

@@ -86,7 +86,7 @@ double polygon_cosine_integral(Vertices vertices) {
     const Eigen::Vector3d& a = p[i];
     const Eigen::Vector3d& b = p[(i + 1) % p.size()];
     area += (a - p[0]).cross(b - p[0]).z();
-    const Eigen::Vector3d normal = a.cross(b);
+    const Eigen::Vector3d normal = a.cross(b - a);  // a x b of ends that are near each other
     excess += excess_of_angle_over_sine(normal.norm(), a.dot(b)) * normal.z();
   }
   return (area + excess) / 2;
@@ -94,16 +94,23 @@ double polygon_cosine_integral(Vertices vertices) {
 
 // 3 int z^2 = int 1 + sum over edges of n_z int z ds, with n = (a x b)/|a x b| the edge's normal
 // inwards. Along the arc int z ds = sin(theta) (a_z + b_z)/(1 + cos(theta)), and the sine cancels
-// against |a x b|.
+// against |a x b|: what is left is (a x b)_z q, q = (a_z + b_z)/(1 + a.b). All q of a small polygon
+// are near the first vertex's z, which is therefore taken out: the sum of (a x b)_z alone is the
+// area of polygon_cosine_integral, and what q differs by is as small as the polygon.
 double polygon_squared_cosine_integral(Vertices vertices) {
   const std::vector<Eigen::Vector3d> p = directions_of(vertices);
   double sum = polygon_solid_angle(p);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Eigen::Vector3d& a = p[i];
     const Eigen::Vector3d& b = p[(i + 1) % p.size()];
-    const double one_plus_cosine = 1 + a.dot(b);
-    if (one_plus_cosine > 0)
-      sum += a.cross(b).z() * (a.z() + b.z()) / one_plus_cosine;
+    const double one_plus_cosine = 1 + a.dot(b), z = p[0].z();
+    sum += z * (a - p[0]).cross(b - p[0]).z();
+    // An edge between opposite ends counts as nothing.
+    const double q_less_z =
+        one_plus_cosine > 0
+            ? ((a.z() - z) + (b.z() - z) + z * (a - b).squaredNorm() / 2) / one_plus_cosine
+            : -z;
+    sum += a.cross(b - a).z() * q_less_z;
   }
   return sum / 3;
 }

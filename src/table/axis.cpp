@@ -27,7 +27,7 @@ double warped(Warp warp, double x) {
     case Warp::sqrt:
       return std::sqrt(x);
     case Warp::complement_sqrt:
-      return 1 - std::sqrt(1 - x);
+      return x / (1 + std::sqrt(1 - x));  // 1 - sqrt(1 - x), near x = 0 too
   }
   return x;
 }

@@ -35,12 +35,14 @@ Storage storage_from_name(std::string_view name) {
       "storage \"{}\" is unknown; allowed: matrix, roughness-scaled, mirror-frame", name));
 }
 
+// 1 - x^2/(1 + z) = (y^2 + z + z^2)/(1 + z): of a grazing view nothing else would be left than the
+// rounding of 1.
 Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v) {
   const double x = omega_v.x(), y = omega_v.y(), z = omega_v.z();
   const double s = 1 / (1 + z);
   Eigen::Matrix3d rotation;
-  rotation << 1 - x * x * s, -x * y * s, -x,  //
-      -x * y * s, 1 - y * y * s, -y,          //
+  rotation << z + y * y * s, -x * y * s, -x,  //
+      -x * y * s, z + x * x * s, -y,          //
       x, y, z;
   return rotation;
 }

@@ -18,6 +18,7 @@
 #include "table/symmetry.h"
 #include "validate/lobe_invariants.h"
 #include "validate/matrix_invariants.h"
+#include "validate/shader_inverse.h"
 
 namespace ltc {
 namespace {
@@ -178,6 +179,25 @@ class Checks {
     });
   }
 
+  InvariantResult inverse() const {
+    constexpr std::size_t samples = 512, directions = 8;
+    std::vector<double> errors(table_.grid.size(), nan);
+    parallel_for_each<InversionMeter>(
+        "inverses", errors.size(), threads_, progress_,
+        [] { return InversionMeter(samples, directions); },
+        [&](std::size_t flat, InversionMeter& meter) {
+          if (!invertible_[flat])
+            return;
+          const LobeFrame frame(lobe_at(flat));
+          errors[flat] = meter.error(
+              frame, table_.matrix_at(flat),
+              seen_by_shader(table_.storage, table_.stored_at(flat), frame, InverseOrder::factored,
+                             Precision::single, Precision::single));
+        });
+    return judged("float inverse", limits_.inverse_error, invertible_,
+                  [&](std::size_t flat) { return errors[flat]; });
+  }
+
   InvariantResult albedo_range() const {
     const std::string name = "albedo range";
     if (!contents_.albedo)
@@ -289,6 +309,7 @@ std::vector<InvariantResult> check_invariants(const Table& table, const Invarian
           checks.third_column(),
           checks.alignment(),
           checks.half_precision(),
+          checks.inverse(),
           checks.albedo_range(),
           checks.albedo_quadrature(),
           checks.loss(),

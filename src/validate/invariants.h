@@ -22,6 +22,7 @@ struct InvariantLimits {
   double unit_length = 1e-6;       // of the third column of S, its length's deviation from 1
   double alignment_degrees = 0.1;  // by which the closed form would turn M further
   double half_determinant = 0.5;   // relative change of det(S) by rounding S to half precision
+  double inverse_error = 0.01;     // of the lobe, by inverting M in single precision
   double albedo_error = 2e-4;      // of amplitude and Fresnel against fresh quadrature
   double loss_excess = 1.2;        // LobeMeasures::loss_excess
   double neighbour_excess = 1.3;   // LobeMeasures::neighbour_excess

@@ -27,6 +27,7 @@ std::vector<Key> invariant_keys() {
       key("invariants.unit_length", [](S& s) { return &s.invariants.unit_length; }, Range{0, unbounded}, "largest deviation of a third column's length from 1"),
       key("invariants.alignment_degrees", [](S& s) { return &s.invariants.alignment_degrees; }, Range{0, 180}, "largest angle by which alignment would turn a matrix further"),
       key("invariants.half_determinant", [](S& s) { return &s.invariants.half_determinant; }, below(0, 1), "largest relative change of a determinant by rounding to half precision"),
+      key("invariants.inverse_error", [](S& s) { return &s.invariants.inverse_error; }, Range{0, unbounded}, "largest distance of a lobe to the one of a single-precision inverse, over its spread"),
       key("invariants.albedo_error", [](S& s) { return &s.invariants.albedo_error; }, Range{0, 1}, "largest error of amplitude and Fresnel against fresh quadrature"),
       key("invariants.loss_excess", [](S& s) { return &s.invariants.loss_excess; }, Range{0, unbounded}, "largest loss of a lobe over the stored one"),
       key("invariants.neighbour_excess", [](S& s) { return &s.invariants.neighbour_excess; }, Range{0, unbounded}, "largest jump between neighbours over that of GGX"),

@@ -76,7 +76,7 @@ TEST_F(Validate, PassesAGoodTable) {
   const Json report = Json::parse(read_file(folder / "new/report.json"));
   EXPECT_EQ(report["table"], good().string());
   EXPECT_EQ(report["passed"], true);
-  EXPECT_EQ(report["invariants"].size(), 13u);
+  EXPECT_EQ(report["invariants"].size(), 14u);
   for (const Json& invariant : report["invariants"]) {
     EXPECT_EQ(invariant["passed"], true) << invariant;
     EXPECT_NE(result.out.find(std::string("\n").append(invariant["name"]).append(" ")),

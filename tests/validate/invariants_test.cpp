@@ -67,7 +67,7 @@ TEST(Invariants, HoldForASoundTableOfAnyStorage) {
                             ? good_table()
                             : generate_table(small_config(storage), 1, nullptr, nullptr);
     const std::vector<InvariantResult> results = check(table);
-    EXPECT_EQ(results.size(), 13u);
+    EXPECT_EQ(results.size(), 14u);
     for (const InvariantResult& result : results) {
       EXPECT_TRUE(result.passed) << storage_name(storage) << ": " << result.message;
       EXPECT_TRUE(result.checked) << result.name;
@@ -76,8 +76,9 @@ TEST(Invariants, HoldForASoundTableOfAnyStorage) {
       EXPECT_TRUE(result.entries.empty());
     }
     // And they have looked: these are never without any.
-    for (const char* name : {"determinant", "condition number", "third column", "alignment",
-                             "half precision", "albedo quadrature", "stored loss", "neighbours"})
+    for (const char* name :
+         {"determinant", "condition number", "third column", "alignment", "half precision",
+          "float inverse", "albedo quadrature", "stored loss", "neighbours"})
       EXPECT_GT(named(results, name).value, 0) << name;
   }
 }
@@ -164,6 +165,11 @@ TEST(Invariants, EachFindsItsFaultAndNamesTheEntry) {
        })},
       {"half precision", general, matrix([](M m) {
          m.col(1) *= 1e6;
+         return m;
+       })},
+      // A needle in a direction that all three columns nearly have.
+      {"float inverse", general, matrix([](M m) {
+         m.leftCols<2>() = 1e-8 * m.leftCols<2>() + 0.02 * m.col(2).rowwise().replicate<2>();
          return m;
        })},
       {"albedo range", general, [](Table& t, std::size_t i) { t.amplitude[i] = 1.0001f; }},

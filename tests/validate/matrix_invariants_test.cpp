@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
 #include "align/align.h"
 #include "core/angle.h"
+#include "support/wide.h"
 
 namespace ltc {
 namespace {
@@ -25,6 +27,22 @@ TEST(ConditionNumber, IsTheRatioOfTheSingularValues) {
   for (const double least : {0.5, 1e-4, 1e-10})
     EXPECT_NEAR(condition_number(u * Eigen::Vector3d(1, 0.7, least).asDiagonal() * v) * least, 1,
                 1e-5);
+}
+
+// Over all condition numbers that an invertible matrix in double can have.
+TEST(ConditionNumber, KeepsItsDigitsWhereTheEigenvaluesOfTheSquareDoNot) {
+  const Eigen::Matrix3d u = turn({1, 2, 3}, 40), v = turn({-1, 1, 0.5}, 100);
+  test::WorstError careful, naive;
+  for (const double least : test::logarithmic(1e-12, 0.5, 24)) {
+    const Eigen::Matrix3d matrix = u * Eigen::Vector3d(1, 0.7, least).asDiagonal() * v;
+    careful.add((condition_number(matrix) * least - 1) * least);
+    const Eigen::Vector3d squares =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix.transpose() * matrix).eigenvalues();
+    naive.add((std::sqrt(squares.z() / squares.x()) * least - 1) * least);
+  }
+  // Relative, over the condition number: the entries of the matrix are rounded, which moves its
+  // least singular value by 2^-53 of the largest. Some ten such roundings.
+  test::expect_only_the_careful_one_within(16 * test::kDoubleRounding, careful, naive);
 }
 
 TEST(ConditionNumber, IsInfiniteForSingularAndNanForNan) {
