@@ -11,7 +11,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/angle.h"
+#include "cli/lobe_words.h"
 #include "table/entry_text.h"
 #include "validate/matrix_invariants.h"
 
@@ -57,21 +57,6 @@ std::vector<NamedStep> named_steps(const FitReport& report) {
       steps.push_back({phase, same ? steps.back().number + 1 : 1, step});
     }
   return steps;
-}
-
-double degrees(double radians) {
-  return radians / radians_per_degree;
-}
-
-std::string lobe_line(const GgxLobe& lobe) {
-  return fmt::format("alpha_x {:.6g}, alpha_y {:.6g}, theta {:.6g}, phi {:.6g}", lobe.alpha_x,
-                     lobe.alpha_y, degrees(lobe.theta_radians), degrees(lobe.phi_radians));
-}
-
-std::string status_word(Status status) {
-  constexpr std::array<const char*, 5> words = {"skipped", "fitted", "copied", "analytic",
-                                                "failed"};
-  return words.at(static_cast<std::size_t>(status));
 }
 
 std::string status_text(const FitReport& report) {
@@ -122,29 +107,8 @@ std::string steps_text(const FitReport& report) {
   return text;
 }
 
-std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix) {
-  std::string text;
-  for (int row = 0; row < 3; ++row)
-    text += fmt::format("{:<9}{:>16.8e} {:>16.8e} {:>16.8e}\n", row == 0 ? name : "",
-                        matrix(row, 0), matrix(row, 1), matrix(row, 2));
-  return text + fmt::format("{:<9}determinant {:.4e}, condition number {:.4e}\n", "",
-                            matrix.determinant(), condition_number(matrix));
-}
-
-std::string loss_text(const LobeFit& fit) {
-  return fmt::format("{:.4e} held out, {:.3g} % of the lobe's spread {:.4e}", fit.held_out_loss,
-                     100 * fit.held_out_loss / fit.spread, fit.spread);
-}
-
 std::string solver_name(SolverKind solver) {
   return solver == SolverKind::sgd ? "sgd" : "gauss-newton";
-}
-
-Json json_of(const Eigen::Matrix3d& matrix) {
-  Json rows = Json::array();
-  for (int row = 0; row < 3; ++row)
-    rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2)});
-  return rows;
 }
 
 Json json_of(const FitReport& report, const std::vector<NamedStep>& steps) {
@@ -183,6 +147,9 @@ std::string report_text(const FitReport& report) {
   if (report.entry)
     text += fmt::format("entry    {}: {}\n", entry_text(report.grid, *report.entry),
                         lobe_text(report.grid, *report.entry));
+  if (report.entry && report.refined)
+    text +=
+        "refined  not here: this is the entry before refine.steps; --as-in TABLE shows a table's\n";
   text += fmt::format("solver   {}, seed {}\n", solver_name(report.settings.solver),
                       report.settings.seed);
   text += fmt::format("status   {}\n", status_text(report));
@@ -195,7 +162,7 @@ std::string report_text(const FitReport& report) {
     text += matrix_text("stored", fit.finished.stored);
   text += fmt::format("symmetry largest value zeroed {:.1e}\n", fit.finished.zeroed);
   text += fmt::format("loss     {:.4e} in {} steps; {}\n", fit.fitted.loss, fit.fitted.steps,
-                      loss_text(fit));
+                      loss_words(fit.held_out_loss, fit.spread));
   text += fmt::format("albedo   amplitude {:.6f}, Fresnel {:.6f}\n", fit.albedo.amplitude,
                       fit.albedo.fresnel);
   if (report.gradient)
@@ -206,10 +173,7 @@ std::string report_text(const FitReport& report) {
 std::string report_json(const FitReport& report) {
   const LobeFit& fit = report.fit;
   Json json;
-  json["lobe"] = {{"alpha_x", fit.lobe.alpha_x},
-                  {"alpha_y", fit.lobe.alpha_y},
-                  {"theta_degrees", degrees(fit.lobe.theta_radians)},
-                  {"phi_degrees", degrees(fit.lobe.phi_radians)}};
+  json["lobe"] = lobe_json(fit.lobe);
   if (report.entry)
     json["entry"] = entry_text(report.grid, *report.entry);
   if (report.representative)
@@ -220,10 +184,10 @@ std::string report_json(const FitReport& report) {
   json["status"] = status_word(fit.fitted.status);
   json["steps"] = json_of(report, named_steps(report));
   json["iterations"] = fit.fitted.steps;
-  json["matrix"] = {{"fitted", json_of(fit.fitted.matrix)},
-                    {"aligned", json_of(fit.aligned)},
-                    {"final", json_of(fit.matrix)},
-                    {"stored", json_of(fit.finished.stored)}};
+  json["matrix"] = {{"fitted", matrix_json(fit.fitted.matrix)},
+                    {"aligned", matrix_json(fit.aligned)},
+                    {"final", matrix_json(fit.matrix)},
+                    {"stored", matrix_json(fit.finished.stored)}};
   json["storage"] = storage_name(report.storage);
   json["determinant"] = fit.matrix.determinant();
   json["condition_number"] = condition_number(fit.matrix);
@@ -254,12 +218,11 @@ picture::Words picture_words(const FitReport& report) {
   picture::Words words;
   words.title = report.entry ? "Entry " + entry_text(report.grid, *report.entry)
                              : std::string("GGX lobe and its LTC");
-  words.subtitle =
-      fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", fit.lobe.alpha_x,
-                  fit.lobe.alpha_y, degrees(fit.lobe.theta_radians), degrees(fit.lobe.phi_radians));
+  words.subtitle = lobe_caption(fit.lobe);
   const std::size_t steps = named_steps(report).size();
   words.lines_below = {
-      fmt::format("Loss {}; {:.4e} on the fit's own samples{}", loss_text(fit), fit.fitted.loss,
+      fmt::format("Loss {}; {:.4e} on the fit's own samples{}",
+                  loss_words(fit.held_out_loss, fit.spread), fit.fitted.loss,
                   steps == 0 ? "; no steps were needed" : ""),
       fmt::format("{}, {}; determinant {:.3e}, condition number {:.3e}; amplitude {:.4f}, Fresnel "
                   "{:.4f}",

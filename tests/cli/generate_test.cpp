@@ -95,8 +95,9 @@ TEST(GenerateBadInput, ConfigFile) {
     parts.push_back(file.string() + ":" + line + ": ");
     expect_refused({"generate", "--config", file.string()}, 2, parts);
   };
-  expect_config_refused("[fit]\nsolver = \"newton\"\n", "2",
-                        {"fit.solver = \"newton\"", "\"gauss-newton\", \"sgd\" or \"l3-nelder-mead\""});
+  expect_config_refused(
+      "[fit]\nsolver = \"newton\"\n", "2",
+      {"fit.solver = \"newton\"", "\"gauss-newton\", \"sgd\" or \"l3-nelder-mead\""});
   expect_config_refused("[fit]\nseeds = 1\n", "2", {"unknown key fit.seeds = 1", "fit.seed?"});
   expect_config_refused("[fit]\nseed = \"1\"\n", "2", {"fit.seed = \"1\"", "whole number"});
   expect_config_refused("[fit]\nseed = -1\n", "2", {"fit.seed = -1", "[0, "});
