@@ -102,13 +102,17 @@ std::string checks(const Validation& validation) {
   html::Table invariants{{"invariant", "worst", "allowed", "", "at entry"}, {}, 1, 3};
   for (const InvariantResult& result : validation.invariants) {
     const bool judged = result.checked && result.has_worst;
+    // Where all entries have the least value there is, none is worst.
+    const bool one_is_worst = judged && !(result.passed && result.value == 0);
     invariants.rows.push_back(
         {escaped(result.name), judged ? short_number(result.value) : "–",
-         fmt::format("{} {:.4g}", result.at_most ? "at most" : "above", result.limit),
+         result.checked && !result.has_worst
+             ? "–"
+             : fmt::format("{} {:.4g}", result.at_most ? "at most" : "above", result.limit),
          html::verdict(verdict_of(result)),
-         judged ? fmt::format("<code>{}</code> <span class=\"faint\">{}</span>",
-                              entry_text(grid, result.worst), lobe_text(grid, result.worst))
-                : ""});
+         one_is_worst ? fmt::format("<code>{}</code> <span class=\"faint\">{}</span>",
+                                    entry_text(grid, result.worst), lobe_text(grid, result.worst))
+                      : ""});
   }
   html::Table thresholds{{"threshold", "table", "allowed", "", "key"}, {}, 1, 3};
   for (const ThresholdCheck& check : validation.thresholds)
