@@ -58,8 +58,10 @@ Config load(const Arguments& arguments) {
   if (!arguments.seed.empty())
     all.overrides.push_back("fit.seed=" + arguments.seed);
   if (!arguments.samples.empty()) {
-    const bool sgd = all.load().fit.solver == SolverKind::sgd;
-    all.overrides.push_back((sgd ? "fit.sgd.samples=" : "fit.gauss_newton.samples=") +
+    const SolverKind solver = all.load().fit.solver;
+    all.overrides.push_back((solver == SolverKind::sgd              ? "fit.sgd.samples="
+                             : solver == SolverKind::l3_nelder_mead ? "fit.l3.samples="
+                                                                    : "fit.gauss_newton.samples=") +
                             arguments.samples);
   }
   return all.load();
@@ -210,6 +212,7 @@ void require_one_name(const Arguments& arguments) {
 
 // What the table holds for the lobe; nothing is fitted but the floor.
 void show_as_in(const Arguments& arguments, const Progress& progress) {
+  const std::optional<OutputFolder> folder = folder_of_file(arguments.plot);
   StoredReport report{
       arguments.as_in, contents_of(arguments.as_in), read_table(arguments.as_in), {}};
   const auto named = [&](auto&& action) {
@@ -235,6 +238,8 @@ void show_as_in(const Arguments& arguments, const Progress& progress) {
 // The lobe's fit, every step of it.
 void show_fit(const Arguments& arguments, Progress& progress) {
   const Config config = load(arguments);
+  const std::optional<OutputFolder> trace_folder = folder_of_file(arguments.trace),
+                                    plot_folder = folder_of_file(arguments.plot);
   FitReport report = run_fit(arguments, config, progress);
   if (arguments.check_gradient)
     report.gradient = check_lobe_gradient(report.fit.lobe, report.fit.matrix);
@@ -294,12 +299,13 @@ void add_lobe_options(CLI::App& app, Arguments& arguments) {
 
 void add_fit_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "How to fit";
-  app.add_option("--solver", arguments.solver, "gauss-newton or sgd [fit.solver]")
+  app.add_option("--solver", arguments.solver, "gauss-newton, sgd or l3-nelder-mead [fit.solver]")
       ->check([](const std::string& name) {
-        return std::string(name == "gauss-newton" || name == "sgd"
+        return std::string(name == "gauss-newton" || name == "sgd" || name == "l3-nelder-mead"
                                ? ""
                                : shell_quoted(name) +
-                                     " is not allowed; expected gauss-newton or sgd");
+                                     " is not allowed; expected gauss-newton, "
+                                     "sgd or l3-nelder-mead");
       })
       ->option_text("NAME")
       ->group(group);

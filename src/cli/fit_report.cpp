@@ -36,6 +36,8 @@ std::string own_start_name(int start) {
 std::string phase_name(const FitReport& report, const WatchedFit& fit, const FitStep& step) {
   if (report.settings.solver == SolverKind::sgd)
     return "descent";
+  if (report.settings.solver == SolverKind::l3_nelder_mead)
+    return "simplex";
   const std::string sweep = fit.sweep > 0 ? fmt::format("sweep {} ", fit.sweep) : "";
   const int starts =
       fit.sweep == 0 && report.start.empty() ? report.settings.gauss_newton.starts : 1;
@@ -74,6 +76,8 @@ std::string start_text(const FitReport& report) {
     return report.start;
   if (report.settings.solver == SolverKind::sgd)
     return std::string(start_name(report.settings.sgd.start));
+  if (report.settings.solver == SolverKind::l3_nelder_mead)
+    return std::string(start_name(report.settings.l3.start));
   std::string text;
   for (int start = 0; start < report.settings.gauss_newton.starts; ++start)
     text += (text.empty() ? "" : ", ") + own_start_name(start);
@@ -108,7 +112,15 @@ std::string steps_text(const FitReport& report) {
 }
 
 std::string solver_name(SolverKind solver) {
-  return solver == SolverKind::sgd ? "sgd" : "gauss-newton";
+  switch (solver) {
+    case SolverKind::gauss_newton:
+      return "gauss-newton";
+    case SolverKind::sgd:
+      return "sgd";
+    case SolverKind::l3_nelder_mead:
+      return "l3-nelder-mead";
+  }
+  return "unknown";
 }
 
 Json json_of(const FitReport& report, const std::vector<NamedStep>& steps) {
@@ -166,7 +178,7 @@ std::string report_text(const FitReport& report) {
   text += fmt::format("albedo   amplitude {:.6f}, Fresnel {:.6f}\n", fit.albedo.amplitude,
                       fit.albedo.fresnel);
   if (report.gradient)
-    text += fmt::format("gradient {}\n", report.gradient->describe());
+    text += fmt::format("check    {}\n", report.gradient->describe());
   return text;
 }
 
@@ -237,7 +249,9 @@ picture::Chart loss_chart(const FitReport& report) {
   chart.words.title = "Loss against steps";
   chart.words.subtitle = "Each phase on its own samples";
   chart.x = {"step"};
-  chart.y = {"sliced-Wasserstein loss", picture::ScaleKind::logarithmic};
+  chart.y = {
+      report.settings.solver == SolverKind::l3_nelder_mead ? "L3 error" : "sliced-Wasserstein loss",
+      picture::ScaleKind::logarithmic};
   chart.font_size = 20;
   const std::vector<NamedStep> steps = named_steps(report);
   constexpr std::size_t most_markers = 100;
@@ -251,7 +265,9 @@ picture::Chart loss_chart(const FitReport& report) {
            2});
     chart.series.back().points.push_back({static_cast<double>(i + 1), steps[i].step.loss});
   }
-  if (!steps.empty() && std::isfinite(report.fit.held_out_loss)) {
+  // The simplex's error is another measure.
+  if (!steps.empty() && std::isfinite(report.fit.held_out_loss) &&
+      report.settings.solver != SolverKind::l3_nelder_mead) {
     const double loss = report.fit.held_out_loss;
     chart.series.push_back(
         {"result, held out",

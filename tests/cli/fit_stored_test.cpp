@@ -131,7 +131,6 @@ TEST_F(FitAsIn, TellsItAsTextAndDrawsIt) {
     std::vector<std::string> arguments = {"fit", "--as-in", file("whole/ltc.h5").string(), "--plot",
                                           "new/lobe.png"};
     arguments.insert(arguments.end(), which.begin(), which.end());
-    fs::create_directories(folder / "new");
     const ProgramResult result = run_ltcfit(arguments, folder.path());
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
@@ -216,7 +215,7 @@ TEST_F(FitAsIn, RefusesInOneLine) {
           2, {"--as-in " + part, "has no values"});
   refused({"--config", part, "--entry", "1,2,1,1"}, 2, {part, "1,2,1,1", "scene"});
   refused({"--as-in", whole, "--entry", "0,0,0,0", "--plot", "/proc/none/a.png"}, 3,
-          {"/proc/none/a.png"});
+          {"/proc/none"});
   for (const auto& more : std::vector<std::vector<std::string>>{{"--seed", "2"},
                                                                 {"--set", "fit.seed=2"},
                                                                 {"--config", "c.toml"},
