@@ -9,9 +9,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "cli/output.h"
-#include "config/config.h"
-#include "core/angle.h"
+#include "cli/fit_command.h"
 #include "table/entry_text.h"
 
 namespace ltc::cli {
@@ -181,8 +179,9 @@ std::string worst_text(const DiffReport& report, const WorstList& list) {
         "{} ({})\n    ratio {:.4f}: loss {:.3e} of A, {:.3e} of B; lobes {:.3g} % of the spread "
         "apart\n    A: {}\n    B: {}\n",
         entry_text(grid_of(report), flat), lobe_text(grid_of(report), flat), entry.ratio(),
-        entry.loss_a, entry.loss_b, 100 * entry.relative_distance(), fit_command(report.a, flat),
-        fit_command(report.b, flat));
+        entry.loss_a, entry.loss_b, 100 * entry.relative_distance(),
+        EntryCommands(report.a.file, report.a.table).best(flat),
+        EntryCommands(report.b.file, report.b.table).best(flat));
   }
   return text;
 }
@@ -251,8 +250,8 @@ Json json_of_worst(const DiffReport& report, const std::vector<std::size_t>& wor
     Json json = json_of_entry(report, flat);
     json["ratio"] = report.entries[flat].ratio();
     json["relative_distance"] = report.entries[flat].relative_distance();
-    json["command_a"] = fit_command(report.a, flat);
-    json["command_b"] = fit_command(report.b, flat);
+    json["command_a"] = EntryCommands(report.a.file, report.a.table).best(flat);
+    json["command_b"] = EntryCommands(report.b.file, report.b.table).best(flat);
     all.push_back(json);
   }
   return all;
@@ -285,20 +284,6 @@ DiffReport::DiffReport(NamedTable of_a, NamedTable of_b, const CompareSettings& 
       tolerance(bound) {
   if (tolerance)
     exceeded = exceedances(entries, *tolerance);
-}
-
-std::string fit_command(const NamedTable& named, std::size_t flat) {
-  const Grid& grid = named.table.grid;
-  if (!named.table.config.empty())
-    return fmt::format("ltcfit fit --config {} --entry {}", shell_quoted(named.file),
-                       entry_text(grid, flat));
-  const std::string start = " --start " + shell_quoted("from=" + named.file);
-  if (grid == Config{}.grid)
-    return fmt::format("ltcfit fit --entry {}{}", entry_text(grid, flat), start);
-  const GgxLobe lobe = grid.lobe(grid.node(flat));
-  return fmt::format("ltcfit fit --alpha-x {} --alpha-y {} --theta {} --phi {}{}", lobe.alpha_x,
-                     lobe.alpha_y, lobe.theta_radians / radians_per_degree,
-                     lobe.phi_radians / radians_per_degree, start);
 }
 
 std::string report_text(const DiffReport& report) {

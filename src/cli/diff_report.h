@@ -31,10 +31,6 @@ struct DiffReport {
   std::vector<Exceedance> exceeded;  // of the tolerance
 };
 
-// The command that looks into an entry of a table: with the config in its file where that has one,
-// else starting from the table's own matrix.
-std::string fit_command(const NamedTable& table, std::size_t flat);
-
 std::string report_text(const DiffReport& report);
 std::string report_json(const DiffReport& report);  // with a line break at its end
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// ltcfit fit: one lobe through the pipeline, every step shown.
+// ltcfit fit: one lobe through the pipeline, every step shown; or what a table holds for it.
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -13,6 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
+#include "cli/stored_report.h"
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/platform.h"
@@ -37,6 +38,7 @@ class StopOnly final : public Progress {
 
 struct Arguments {
   ConfigArguments config;
+  std::string as_in;  // a table to show the lobe of; empty: none, the lobe is fitted
   std::string scene;  // empty: the whole table
   std::string entry;  // empty: the lobe is named by its parameters
   std::optional<double> alpha_x, alpha_y, theta_degrees, phi_degrees;
@@ -56,8 +58,10 @@ Config load(const Arguments& arguments) {
   if (!arguments.seed.empty())
     all.overrides.push_back("fit.seed=" + arguments.seed);
   if (!arguments.samples.empty()) {
-    const bool sgd = all.load().fit.solver == SolverKind::sgd;
-    all.overrides.push_back((sgd ? "fit.sgd.samples=" : "fit.gauss_newton.samples=") +
+    const SolverKind solver = all.load().fit.solver;
+    all.overrides.push_back((solver == SolverKind::sgd              ? "fit.sgd.samples="
+                             : solver == SolverKind::l3_nelder_mead ? "fit.l3.samples="
+                                                                    : "fit.gauss_newton.samples=") +
                             arguments.samples);
   }
   return all.load();
@@ -139,12 +143,28 @@ Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const
                   shell_quoted(text)));
 }
 
+// Which entries are made with the one that is asked for: those of the scene, or those of the table
+// whose config is taken.
+std::vector<bool> needed_with(const Arguments& arguments, const Config& config) {
+  if (!arguments.scene.empty())
+    return needed_entries(load_scene(arguments.scene), config.grid);
+  std::vector<bool> needed(config.grid.size(), true);
+  const std::optional<std::filesystem::path> file = arguments.config.path();
+  if (!file || file->extension() != ".h5")
+    return needed;
+  const Table table = read_table(*file);
+  for (std::size_t flat = 0; table.grid == config.grid && flat < needed.size(); ++flat)
+    needed[flat] = table.status[flat] != Status::skipped;
+  return needed;
+}
+
 // The entry as its table has it, or the lobe by itself.
 FitReport run_fit(const Arguments& arguments, const Config& config, Progress& progress) {
   FitReport report;
   report.settings = config.fit;
   report.storage = config.storage;
   report.grid = config.grid;
+  report.refined = config.refine.steps > 0;
   report.start = arguments.start;
   GgxLobe lobe;
   std::size_t seed_index = 0;
@@ -161,12 +181,13 @@ FitReport run_fit(const Arguments& arguments, const Config& config, Progress& pr
         fit_lobe(config, lobe, seed, parse_start(arguments.start, config, lobe, report.entry, seed),
                  &progress);
   } else if (report.entry) {
-    const std::vector<bool> needed = arguments.scene.empty()
-                                         ? std::vector<bool>(config.grid.size(), true)
-                                         : needed_entries(load_scene(arguments.scene), config.grid);
+    const std::vector<bool> needed = needed_with(arguments, config);
     if (!needed[*report.entry])
-      throw InputError(fmt::format("--entry {}: the scene {} does not need it", arguments.entry,
-                                   arguments.scene));
+      throw InputError(arguments.scene.empty()
+                           ? fmt::format("--entry {}: {} has none there; its scene did not need it",
+                                         arguments.entry, arguments.config.file)
+                           : fmt::format("--entry {}: the scene {} does not need it",
+                                         arguments.entry, arguments.scene));
     const std::size_t representative =
         plan_by_symmetry(config.grid, needed)[*report.entry].representative;
     if (representative != *report.entry)
@@ -189,11 +210,36 @@ void require_one_name(const Arguments& arguments) {
     throw InputError("--scene tells which table an --entry is of; it goes with no other start");
 }
 
-void fit(const Arguments& arguments) {
-  StopOnly progress;
-  const StopOnInterrupt stop_on_interrupt(progress);
-  require_one_name(arguments);
+// What the table holds for the lobe; nothing is fitted but the floor.
+void show_as_in(const Arguments& arguments, const Progress& progress) {
+  const std::optional<OutputFolder> folder = folder_of_file(arguments.plot);
+  StoredReport report{
+      arguments.as_in, contents_of(arguments.as_in), read_table(arguments.as_in), {}};
+  const auto named = [&](auto&& action) {
+    try {
+      return action();
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--as-in {}: {}", arguments.as_in, error.what()));
+    }
+  };
+  if (arguments.entry.empty()) {
+    const GgxLobe lobe = parse_lobe(arguments);
+    report.lobe = named([&] { return stored_query(report.table, lobe, &progress); });
+  } else {
+    const std::size_t entry = parse_entry(arguments.entry, report.table.grid);
+    report.lobe = named([&] { return stored_entry(report.table, entry, &progress); });
+  }
+  if (!arguments.plot.empty())
+    render_lobe(lobe_panels(report.lobe.lobe, report.lobe.matrix, picture_words(report)), {})
+        .write_png(arguments.plot);
+  print(arguments.json ? report_json(report) : report_text(report));
+}
+
+// The lobe's fit, every step of it.
+void show_fit(const Arguments& arguments, Progress& progress) {
   const Config config = load(arguments);
+  const std::optional<OutputFolder> trace_folder = folder_of_file(arguments.trace),
+                                    plot_folder = folder_of_file(arguments.plot);
   FitReport report = run_fit(arguments, config, progress);
   if (arguments.check_gradient)
     report.gradient = check_lobe_gradient(report.fit.lobe, report.fit.matrix);
@@ -208,11 +254,30 @@ void fit(const Arguments& arguments) {
     throw CheckFailure("gradient check failed: " + report.gradient->describe());
 }
 
+void fit(const Arguments& arguments) {
+  StopOnly progress;
+  const StopOnInterrupt stop_on_interrupt(progress);
+  require_one_name(arguments);
+  if (arguments.as_in.empty())
+    show_fit(arguments, progress);
+  else
+    show_as_in(arguments, progress);
+}
+
 void add_lobe_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "Which lobe";
   app.add_option("-e,--entry", arguments.entry,
-                 "entry of the config's table, fitted bit for bit as generate does: 3,0,7,4")
+                 "entry of the config's table, fitted bit for bit as generate does; with --as-in, "
+                 "of that table: 3,0,7,4")
       ->option_text("A,L,T,P")
+      ->group(group);
+  app.add_option("--as-in", arguments.as_in,
+                 "fit no entry: show what this table (.h5, .npy or .0.exr) holds for the entry or "
+                 "gives for the lobe, and what a fit of that very lobe would [none]")
+      ->check([](const std::string& text) {
+        return std::string(text.empty() ? "is empty; expected a table's file" : "");
+      })
+      ->option_text("TABLE")
       ->group(group);
   app.add_option("--scene", arguments.scene, "the scene that the table was made for [none]")
       ->option_text("FILE")
@@ -234,12 +299,13 @@ void add_lobe_options(CLI::App& app, Arguments& arguments) {
 
 void add_fit_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "How to fit";
-  app.add_option("--solver", arguments.solver, "gauss-newton or sgd [fit.solver]")
+  app.add_option("--solver", arguments.solver, "gauss-newton, sgd or l3-nelder-mead [fit.solver]")
       ->check([](const std::string& name) {
-        return std::string(name == "gauss-newton" || name == "sgd"
+        return std::string(name == "gauss-newton" || name == "sgd" || name == "l3-nelder-mead"
                                ? ""
                                : shell_quoted(name) +
-                                     " is not allowed; expected gauss-newton or sgd");
+                                     " is not allowed; expected gauss-newton, "
+                                     "sgd or l3-nelder-mead");
       })
       ->option_text("NAME")
       ->group(group);
@@ -279,6 +345,9 @@ Action declare_fit(CLI::App& app) {
   add_fit_options(app, *arguments);
   add_output_options(app, *arguments);
   add_threads_option(app, arguments->threads);
+  for (const char* of_fits : {"--config", "--set", "--scene", "--solver", "--seed", "--samples",
+                              "--start", "--trace", "--check-gradient"})
+    app.get_option("--as-in")->excludes(app.get_option(of_fits));
   return [arguments] { fit(*arguments); };
 }
 

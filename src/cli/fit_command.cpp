@@ -4,32 +4,55 @@
 
 #include <fmt/format.h>
 
-#include "cli/options.h"
-#include "config/overrides.h"
-#include "core/angle.h"
+#include <optional>
+
+#include "cli/output.h"
+#include "config/config.h"
 #include "core/error.h"
 #include "table/entry_text.h"
 
 namespace ltc::cli {
+namespace {
 
-std::string fit_command_stem(const Table& table) {
-  const ConfigArguments arguments{"", overrides_of(table.config)};
+// Nothing where the table has no config, or one of another version of the program, with values that
+// this one does not take.
+std::optional<Config> config_of(const Table& table) {
+  if (table.config.empty())
+    return std::nullopt;
   try {
-    if (arguments.load().grid == table.grid)
-      return "ltcfit fit" + arguments.as_text() + " --entry";
+    return parse_config(table.config, "the table's config", {});
   } catch (const InputError&) {
-    // A config of another version of the program, with values that this one does not take.
+    return std::nullopt;
   }
-  return "";
 }
 
-std::string fit_command(const Table& table, const std::string& stem, std::size_t flat) {
-  if (!stem.empty())
-    return stem + " " + entry_text(table.grid, flat);
-  const GgxLobe lobe = table.grid.lobe(table.grid.node(flat));
-  return fmt::format("ltcfit fit --alpha-x {:.6g} --alpha-y {:.6g} --theta {:.6g} --phi {:.6g}",
-                     lobe.alpha_x, lobe.alpha_y, lobe.theta_radians / radians_per_degree,
-                     lobe.phi_radians / radians_per_degree);
+}  // namespace
+
+bool is_refined(const Table& table) {
+  const std::optional<Config> config = config_of(table);
+  return config && config->refine.steps > 0;
+}
+
+EntryCommands::EntryCommands(const std::string& file, const Table& table)
+    : table_(table), file_(shell_quoted(file)) {
+  const std::optional<Config> config = config_of(table);
+  // The config of an extended table is followed by that of its older entries.
+  has_config_ = config && config->grid == table.grid && table.config == to_toml(*config);
+  refined_ = config && config->refine.steps > 0;
+}
+
+std::string EntryCommands::stored(std::size_t flat) const {
+  return fmt::format("ltcfit fit --as-in {} --entry {}", file_, entry_text(table_.grid, flat));
+}
+
+std::string EntryCommands::fitted(std::size_t flat) const {
+  return has_config_ ? fmt::format("ltcfit fit --config {} --entry {}", file_,
+                                   entry_text(table_.grid, flat))
+                     : "";
+}
+
+std::string EntryCommands::best(std::size_t flat) const {
+  return has_config_ && !refined_ ? fitted(flat) : stored(flat);
 }
 
 }  // namespace ltc::cli

@@ -1,21 +1,37 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// The command that looks into an entry of a table.
+// The commands that look into an entry of a table.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "table/table.h"
 
 namespace ltc::cli {
 
-// Up to the entry's indices: "ltcfit fit --set fit.seed=2 --entry", with all that the table's own
-// config says beside the defaults, so that it fits the entry as it was made. Empty if the config
-// does not say the table's grid.
-std::string fit_command_stem(const Table& table);
+// Whether the table's config asks for a refinement after the fit; if so, its entries are no fits of
+// their lobes any more.
+bool is_refined(const Table& table);
 
-// The whole command; an entry of a table whose config does not say its grid is named by its lobe:
-// "ltcfit fit --alpha-x 0.5 …".
-std::string fit_command(const Table& table, const std::string& stem, std::size_t flat);
+// Commands for the entries of a table that was read from a file; the table must outlive them.
+class EntryCommands {
+ public:
+  EntryCommands(const std::string& file, const Table& table);
+
+  // "ltcfit fit --as-in out/ltc.h5 --entry 3,0,7,4": what the file holds.
+  std::string stored(std::size_t flat) const;
+  // "ltcfit fit --config out/ltc.h5 --entry 3,0,7,4": the fit that the entry had when the table was
+  // made. Empty where the file does not say how that was, or says it of some entries only.
+  std::string fitted(std::size_t flat) const;
+  // The fit where that is what the table holds, else what it holds.
+  std::string best(std::size_t flat) const;
+  bool refined() const { return refined_; }
+
+ private:
+  const Table& table_;
+  std::string file_;  // as a shell reads it
+  bool has_config_ = false, refined_ = false;
+};
 
 }  // namespace ltc::cli

@@ -11,7 +11,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/angle.h"
+#include "cli/lobe_words.h"
 #include "table/entry_text.h"
 #include "validate/matrix_invariants.h"
 
@@ -36,6 +36,8 @@ std::string own_start_name(int start) {
 std::string phase_name(const FitReport& report, const WatchedFit& fit, const FitStep& step) {
   if (report.settings.solver == SolverKind::sgd)
     return "descent";
+  if (report.settings.solver == SolverKind::l3_nelder_mead)
+    return "simplex";
   const std::string sweep = fit.sweep > 0 ? fmt::format("sweep {} ", fit.sweep) : "";
   const int starts =
       fit.sweep == 0 && report.start.empty() ? report.settings.gauss_newton.starts : 1;
@@ -59,21 +61,6 @@ std::vector<NamedStep> named_steps(const FitReport& report) {
   return steps;
 }
 
-double degrees(double radians) {
-  return radians / radians_per_degree;
-}
-
-std::string lobe_line(const GgxLobe& lobe) {
-  return fmt::format("alpha_x {:.6g}, alpha_y {:.6g}, theta {:.6g}, phi {:.6g}", lobe.alpha_x,
-                     lobe.alpha_y, degrees(lobe.theta_radians), degrees(lobe.phi_radians));
-}
-
-std::string status_word(Status status) {
-  constexpr std::array<const char*, 5> words = {"skipped", "fitted", "copied", "analytic",
-                                                "failed"};
-  return words.at(static_cast<std::size_t>(status));
-}
-
 std::string status_text(const FitReport& report) {
   std::string text = status_word(report.fit.fitted.status);
   if (report.representative)
@@ -89,6 +76,8 @@ std::string start_text(const FitReport& report) {
     return report.start;
   if (report.settings.solver == SolverKind::sgd)
     return std::string(start_name(report.settings.sgd.start));
+  if (report.settings.solver == SolverKind::l3_nelder_mead)
+    return std::string(start_name(report.settings.l3.start));
   std::string text;
   for (int start = 0; start < report.settings.gauss_newton.starts; ++start)
     text += (text.empty() ? "" : ", ") + own_start_name(start);
@@ -122,29 +111,16 @@ std::string steps_text(const FitReport& report) {
   return text;
 }
 
-std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix) {
-  std::string text;
-  for (int row = 0; row < 3; ++row)
-    text += fmt::format("{:<9}{:>16.8e} {:>16.8e} {:>16.8e}\n", row == 0 ? name : "",
-                        matrix(row, 0), matrix(row, 1), matrix(row, 2));
-  return text + fmt::format("{:<9}determinant {:.4e}, condition number {:.4e}\n", "",
-                            matrix.determinant(), condition_number(matrix));
-}
-
-std::string loss_text(const LobeFit& fit) {
-  return fmt::format("{:.4e} held out, {:.3g} % of the lobe's spread {:.4e}", fit.held_out_loss,
-                     100 * fit.held_out_loss / fit.spread, fit.spread);
-}
-
 std::string solver_name(SolverKind solver) {
-  return solver == SolverKind::sgd ? "sgd" : "gauss-newton";
-}
-
-Json json_of(const Eigen::Matrix3d& matrix) {
-  Json rows = Json::array();
-  for (int row = 0; row < 3; ++row)
-    rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2)});
-  return rows;
+  switch (solver) {
+    case SolverKind::gauss_newton:
+      return "gauss-newton";
+    case SolverKind::sgd:
+      return "sgd";
+    case SolverKind::l3_nelder_mead:
+      return "l3-nelder-mead";
+  }
+  return "unknown";
 }
 
 Json json_of(const FitReport& report, const std::vector<NamedStep>& steps) {
@@ -183,6 +159,9 @@ std::string report_text(const FitReport& report) {
   if (report.entry)
     text += fmt::format("entry    {}: {}\n", entry_text(report.grid, *report.entry),
                         lobe_text(report.grid, *report.entry));
+  if (report.entry && report.refined)
+    text +=
+        "refined  not here: this is the entry before refine.steps; --as-in TABLE shows a table's\n";
   text += fmt::format("solver   {}, seed {}\n", solver_name(report.settings.solver),
                       report.settings.seed);
   text += fmt::format("status   {}\n", status_text(report));
@@ -195,21 +174,18 @@ std::string report_text(const FitReport& report) {
     text += matrix_text("stored", fit.finished.stored);
   text += fmt::format("symmetry largest value zeroed {:.1e}\n", fit.finished.zeroed);
   text += fmt::format("loss     {:.4e} in {} steps; {}\n", fit.fitted.loss, fit.fitted.steps,
-                      loss_text(fit));
+                      loss_words(fit.held_out_loss, fit.spread));
   text += fmt::format("albedo   amplitude {:.6f}, Fresnel {:.6f}\n", fit.albedo.amplitude,
                       fit.albedo.fresnel);
   if (report.gradient)
-    text += fmt::format("gradient {}\n", report.gradient->describe());
+    text += fmt::format("check    {}\n", report.gradient->describe());
   return text;
 }
 
 std::string report_json(const FitReport& report) {
   const LobeFit& fit = report.fit;
   Json json;
-  json["lobe"] = {{"alpha_x", fit.lobe.alpha_x},
-                  {"alpha_y", fit.lobe.alpha_y},
-                  {"theta_degrees", degrees(fit.lobe.theta_radians)},
-                  {"phi_degrees", degrees(fit.lobe.phi_radians)}};
+  json["lobe"] = lobe_json(fit.lobe);
   if (report.entry)
     json["entry"] = entry_text(report.grid, *report.entry);
   if (report.representative)
@@ -220,10 +196,10 @@ std::string report_json(const FitReport& report) {
   json["status"] = status_word(fit.fitted.status);
   json["steps"] = json_of(report, named_steps(report));
   json["iterations"] = fit.fitted.steps;
-  json["matrix"] = {{"fitted", json_of(fit.fitted.matrix)},
-                    {"aligned", json_of(fit.aligned)},
-                    {"final", json_of(fit.matrix)},
-                    {"stored", json_of(fit.finished.stored)}};
+  json["matrix"] = {{"fitted", matrix_json(fit.fitted.matrix)},
+                    {"aligned", matrix_json(fit.aligned)},
+                    {"final", matrix_json(fit.matrix)},
+                    {"stored", matrix_json(fit.finished.stored)}};
   json["storage"] = storage_name(report.storage);
   json["determinant"] = fit.matrix.determinant();
   json["condition_number"] = condition_number(fit.matrix);
@@ -254,12 +230,11 @@ picture::Words picture_words(const FitReport& report) {
   picture::Words words;
   words.title = report.entry ? "Entry " + entry_text(report.grid, *report.entry)
                              : std::string("GGX lobe and its LTC");
-  words.subtitle =
-      fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", fit.lobe.alpha_x,
-                  fit.lobe.alpha_y, degrees(fit.lobe.theta_radians), degrees(fit.lobe.phi_radians));
+  words.subtitle = lobe_caption(fit.lobe);
   const std::size_t steps = named_steps(report).size();
   words.lines_below = {
-      fmt::format("Loss {}; {:.4e} on the fit's own samples{}", loss_text(fit), fit.fitted.loss,
+      fmt::format("Loss {}; {:.4e} on the fit's own samples{}",
+                  loss_words(fit.held_out_loss, fit.spread), fit.fitted.loss,
                   steps == 0 ? "; no steps were needed" : ""),
       fmt::format("{}, {}; determinant {:.3e}, condition number {:.3e}; amplitude {:.4f}, Fresnel "
                   "{:.4f}",
@@ -274,7 +249,9 @@ picture::Chart loss_chart(const FitReport& report) {
   chart.words.title = "Loss against steps";
   chart.words.subtitle = "Each phase on its own samples";
   chart.x = {"step"};
-  chart.y = {"sliced-Wasserstein loss", picture::ScaleKind::logarithmic};
+  chart.y = {
+      report.settings.solver == SolverKind::l3_nelder_mead ? "L3 error" : "sliced-Wasserstein loss",
+      picture::ScaleKind::logarithmic};
   chart.font_size = 20;
   const std::vector<NamedStep> steps = named_steps(report);
   constexpr std::size_t most_markers = 100;
@@ -288,7 +265,9 @@ picture::Chart loss_chart(const FitReport& report) {
            2});
     chart.series.back().points.push_back({static_cast<double>(i + 1), steps[i].step.loss});
   }
-  if (!steps.empty() && std::isfinite(report.fit.held_out_loss)) {
+  // The simplex's error is another measure.
+  if (!steps.empty() && std::isfinite(report.fit.held_out_loss) &&
+      report.settings.solver != SolverKind::l3_nelder_mead) {
     const double loss = report.fit.held_out_loss;
     chart.series.push_back(
         {"result, held out",

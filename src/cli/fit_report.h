@@ -22,7 +22,8 @@ struct FitReport {
   FitSettings settings;
   Storage storage = Storage::matrix;
   Grid grid;
-  std::optional<std::size_t> entry;           // of the grid, where it is one
+  bool refined = false;              // whether the config moves its table's entries after the fit
+  std::optional<std::size_t> entry;  // of the grid, where it is one
   std::optional<std::size_t> representative;  // what `entry` is copied from, where it is not itself
   std::string start;                          // as asked for; empty for the solver's own
   std::optional<GradientCheck> gradient;

@@ -194,6 +194,21 @@ void require_none_failed(const Table& table) {
                   entry_text(table.grid, static_cast<std::size_t>(first - table.status.begin()))));
 }
 
+// A refined entry is no fit any more, and one that was taken over is of another run: then the file
+// alone tells what it holds.
+void name_commands(const Arguments& arguments, RunReport& report) {
+  const bool refined = report.generate.refine && report.generate.refine->kept;
+  if (!report.extends) {
+    report.fit_command = "ltcfit fit" + arguments.config.as_text();
+    if (!arguments.scene.empty())
+      report.fit_command += " --scene " + shell_quoted(arguments.scene);
+    report.fit_command += " --entry";
+  }
+  if ((refined || report.extends) && !report.files.empty())
+    report.stored_command =
+        fmt::format("ltcfit fit --as-in {} --entry", shell_quoted(report.files.front().string()));
+}
+
 void generate(const Arguments& arguments) {
   const Clock::time_point began = Clock::now();
   ProgressDisplay progress;
@@ -214,10 +229,7 @@ void generate(const Arguments& arguments) {
   report.npy_left_out = config.output.npy && !writes_npy(config);
   report.seconds = seconds_since(began);
   report.peak_memory_bytes = platform::peak_memory_bytes();
-  report.debug_command = "ltcfit fit" + arguments.config.as_text();
-  if (!arguments.scene.empty())
-    report.debug_command += " --scene " + shell_quoted(arguments.scene);
-  report.debug_command += " --entry";
+  name_commands(arguments, report);
   print(summary_text(table, report));
   require_none_failed(table);
 }

@@ -35,20 +35,6 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-std::string shell_quoted(std::string_view argument) {
-  constexpr std::string_view plain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@%+=:,./_-";
-  if (!argument.empty() && argument.find_first_not_of(plain) == std::string_view::npos)
-    return std::string(argument);
-  std::string quoted = "'";
-  for (const char c : argument)
-    if (c == '\'')
-      quoted += "'\\''";
-    else
-      quoted += c;
-  return quoted + '\'';
-}
-
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   std::error_code ignored;
   fs::path missing = fs::absolute(path_);  // as written: "a/../b" creates a too

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/shell_quoted.h"
+
 namespace ltc::cli {
 
 // Writes to standard output and makes sure that it arrived: throws IoError if not (a full disk).
@@ -16,9 +18,6 @@ void print(std::string_view text);
 
 // The text on one line: control characters escaped.
 std::string one_line(std::string_view text);
-
-// An argument as a shell reads it back to the same text.
-std::string shell_quoted(std::string_view argument);
 
 // The folder that a run writes into. What had to be created for it is removed again if the run ends
 // before anything was written.

@@ -60,7 +60,7 @@ std::string bands_text(const QualityReport& quality) {
   return text;
 }
 
-std::string worst_text(const QualityReport& quality) {
+std::string worst_text(const std::string& file, const QualityReport& quality) {
   if (quality.worst_queries.empty())
     return "";
   std::string text = "\nqueries furthest above the floor\n";
@@ -69,7 +69,7 @@ std::string worst_text(const QualityReport& quality) {
                         quality.queries[i].relative_loss, quality.floors[i].relative_loss,
                         quality.queries[i].area_light.mean_absolute,
                         quality.floors[i].area_light.mean_absolute,
-                        query_command(quality.floors[i].lobe));
+                        query_command(file, quality.floors[i].lobe));
   return text;
 }
 
@@ -110,7 +110,7 @@ Json json_of(const Bands& bands) {
   return json;
 }
 
-Json query_json(const QueryFloor& floor, const QueryQuality& query) {
+Json query_json(const std::string& file, const QueryFloor& floor, const QueryQuality& query) {
   constexpr const char* states[] = {"judged", "outside", "missing"};
   const GgxLobe& lobe = floor.lobe;
   return {{"alpha_x", lobe.alpha_x},
@@ -124,18 +124,19 @@ Json query_json(const QueryFloor& floor, const QueryQuality& query) {
           {"area_light_error_with_amplitude", query.area_light_with_amplitude.mean_absolute},
           {"floor_area_light_error", floor.area_light.mean_absolute},
           {"area_light_noise", floor.area_light.standard_error},
-          {"command", query_command(lobe)}};
+          {"command", query_command(file, lobe)}};
 }
 
 }  // namespace
 
-std::string quality_text(const QualityReport& quality,
+std::string quality_text(const std::string& file, const QualityReport& quality,
                          const std::vector<ThresholdCheck>& thresholds) {
   return figures_text(quality) + left_out_text(quality) + bands_text(quality) +
-         worst_text(quality) + thresholds_text(thresholds);
+         worst_text(file, quality) + thresholds_text(thresholds);
 }
 
-Json quality_json(const QualityReport& quality, const std::vector<ThresholdCheck>& thresholds) {
+Json quality_json(const std::string& file, const QualityReport& quality,
+                  const std::vector<ThresholdCheck>& thresholds) {
   Json json;
   for (const ThresholdCheck& check : thresholds)
     json["thresholds"].push_back(
@@ -160,7 +161,7 @@ Json quality_json(const QualityReport& quality, const std::vector<ThresholdCheck
   json["worst_queries"] = quality.worst_queries;
   json["queries"] = Json::array();
   for (std::size_t i = 0; i < quality.queries.size(); ++i)
-    json["queries"].push_back(query_json(quality.floors[i], quality.queries[i]));
+    json["queries"].push_back(query_json(file, quality.floors[i], quality.queries[i]));
   json["node_losses"] = quality.node_losses;
   return json;
 }

@@ -11,11 +11,12 @@
 
 namespace ltc::cli {
 
-std::string quality_text(const QualityReport& quality,
+std::string quality_text(const std::string& file, const QualityReport& quality,
                          const std::vector<ThresholdCheck>& thresholds);
 
-// All figures, every query with its floor; null where there is no number.
-nlohmann::ordered_json quality_json(const QualityReport& quality,
+// `file` is the table's, for commands. All figures, every query with its floor; null where there is
+// no number.
+nlohmann::ordered_json quality_json(const std::string& file, const QualityReport& quality,
                                     const std::vector<ThresholdCheck>& thresholds);
 
 }  // namespace ltc::cli

@@ -72,17 +72,23 @@ std::string refine_text(const GenerateReport& made) {
         report.steps, report.queries, report.loss_before);
   return fmt::format(
       "refined  {} steps over {} queries: mean relative loss of held-out queries {:.4f}, was "
-      "{:.4f}\n         the commands below show entries as they were before\n",
+      "{:.4f}\n",
       report.steps, report.queries, report.loss_after, report.loss_before);
 }
 
-std::string worst_text(const Table& table, const TableSummary& summary,
-                       const std::string& debug_command) {
+std::string worst_text(const Table& table, const TableSummary& summary, const RunReport& report) {
   std::string text;
-  for (const std::size_t flat : summary.worst)
-    text += fmt::format("{} {:.4e}  {}\n           {} {}\n", text.empty() ? "worst   " : "        ",
-                        table.sw_loss[flat], lobe_text(table.grid, flat), debug_command,
-                        entry_text(table.grid, flat));
+  const auto add = [&](const char* what, const std::string& command, std::size_t flat) {
+    if (!command.empty())
+      text += fmt::format("           {}{} {}\n", what, command, entry_text(table.grid, flat));
+  };
+  const bool both = !report.fit_command.empty() && !report.stored_command.empty();
+  for (const std::size_t flat : summary.worst) {
+    text += fmt::format("{} {:.4e}  {}\n", text.empty() ? "worst   " : "        ",
+                        table.sw_loss[flat], lobe_text(table.grid, flat));
+    add(both ? "in the table:      " : "", report.stored_command, flat);
+    add(both ? "before refinement: " : "", report.fit_command, flat);
+  }
   return text;
 }
 
@@ -100,7 +106,7 @@ std::string summary_text(const Table& table, const RunReport& report) {
   text += fmt::format("symmetry largest value zeroed {:.1e}, at entry {}\n",
                       report.generate.largest_zeroed,
                       entry_text(table.grid, report.generate.largest_zeroed_entry));
-  text += worst_text(table, summary, report.debug_command);
+  text += worst_text(table, summary, report);
   if (report.npy_left_out)
     text += "no NPY   it holds the paper's grid only\n";
   for (const std::filesystem::path& file : report.files)

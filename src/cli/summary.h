@@ -22,7 +22,9 @@ struct RunReport {
   double seconds = 0;         // the whole run, files included
   std::size_t peak_memory_bytes = 0;
   std::vector<std::filesystem::path> files;
-  std::string debug_command;  // the command that looks into an entry, up to the entry's indices
+  // The commands that look into an entry, up to the entry's indices.
+  std::string fit_command;     // the fit that it had; empty where not all entries are of this run
+  std::string stored_command;  // what the file holds; empty where that is the fit
 };
 
 std::string summary_text(const Table& table, const RunReport& report);

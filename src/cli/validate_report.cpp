@@ -44,8 +44,17 @@ std::string row_text(const Grid& grid, const InvariantResult& result) {
                      result.passed ? "passed" : "FAILED", where);
 }
 
+// What the table holds there, and what its config makes of the entry.
+std::string commands_text(const EntryCommands& commands, std::size_t flat) {
+  std::string text = fmt::format("    {:<19}{}\n", "in the table:", commands.stored(flat));
+  if (const std::string fitted = commands.fitted(flat); !fitted.empty())
+    text += fmt::format("    {:<19}{}\n",
+                        commands.refined() ? "before refinement:" : "fitted anew:", fitted);
+  return text;
+}
+
 std::string failed_text(const Validation& report, const InvariantResult& result,
-                        const std::string& stem) {
+                        const EntryCommands& commands) {
   if (result.entries.empty())
     return fmt::format("\n{}: {}\n", result.name, result.message);
   std::string text =
@@ -53,43 +62,46 @@ std::string failed_text(const Validation& report, const InvariantResult& result,
                   result.entries.size() == 1 ? "entry" : "entries");
   const std::size_t shown = std::min(result.entries.size(), most_shown);
   for (std::size_t i = 0; i < shown; ++i)
-    text += fmt::format("  {} ({})\n    {}\n", entry_text(report.table.grid, result.entries[i]),
+    text += fmt::format("  {} ({})\n{}", entry_text(report.table.grid, result.entries[i]),
                         lobe_text(report.table.grid, result.entries[i]),
-                        fit_command(report.table, stem, result.entries[i]));
+                        commands_text(commands, result.entries[i]));
   if (shown < result.entries.size())
     text += fmt::format("  and {} more; --json lists all\n", result.entries.size() - shown);
   return text;
 }
 
-Json entry_json(const Validation& report, std::size_t flat, const std::string& stem) {
+Json entry_json(const Validation& report, std::size_t flat, const EntryCommands& commands) {
   const Grid& grid = report.table.grid;
-  return {{"entry", entry_text(grid, flat)},
-          {"lobe", lobe_text(grid, flat)},
-          {"command", fit_command(report.table, stem, flat)}};
+  Json json = {{"entry", entry_text(grid, flat)},
+               {"lobe", lobe_text(grid, flat)},
+               {"command", commands.stored(flat)}};
+  if (const std::string fitted = commands.fitted(flat); !fitted.empty())
+    json["fit_command"] = fitted;
+  return json;
 }
 
 Json invariant_json(const Validation& report, const InvariantResult& result,
-                    const std::string& stem) {
+                    const EntryCommands& commands) {
   Json json;
   json["name"] = result.name;
   json["checked"] = result.checked;
   json["passed"] = result.checked ? Json(result.passed) : Json(nullptr);
   if (result.checked && result.has_worst) {
     json["value"] = result.value;  // null where it is not finite
-    json["worst"] = entry_json(report, result.worst, stem);
+    json["worst"] = entry_json(report, result.worst, commands);
   }
   json[result.at_most ? "at_most" : "above"] = result.limit;
   json["message"] = result.message;
   json["failed_entries"] = Json::array();
   for (const std::size_t flat : result.entries)
-    json["failed_entries"].push_back(entry_json(report, flat, stem));
+    json["failed_entries"].push_back(entry_json(report, flat, commands));
   return json;
 }
 
 }  // namespace
 
 std::string report_text(const Validation& report) {
-  const std::string stem = fit_command_stem(report.table);
+  const EntryCommands commands(report.file, report.table);
   std::string text = table_text(report);
   text +=
       fmt::format("{:<20} {:>12}  {:<16} {:<8} {}\n", "check", "worst", "allowed", "", "at entry");
@@ -97,23 +109,24 @@ std::string report_text(const Validation& report) {
     text += row_text(report.table.grid, result);
   for (const InvariantResult& result : report.invariants)
     if (!result.passed)
-      text += failed_text(report, result, stem);
+      text += failed_text(report, result, commands);
   if (report.quality)
-    text += quality_text(*report.quality, report.thresholds);
+    text += quality_text(report.file, *report.quality, report.thresholds);
   return text;
 }
 
 std::string report_json(const Validation& report) {
-  const std::string stem = fit_command_stem(report.table);
+  const EntryCommands commands(report.file, report.table);
   Json json;
   json["table"] = report.file;
   json["passed"] = failure_text(report).empty();
   json["invariants"] = Json::array();
   for (const InvariantResult& result : report.invariants)
-    json["invariants"].push_back(invariant_json(report, result, stem));
+    json["invariants"].push_back(invariant_json(report, result, commands));
   if (report.quality)
-    json["quality"] = quality_json(*report.quality, report.thresholds);
-  return json.dump(2) + "\n";
+    json["quality"] = quality_json(report.file, *report.quality, report.thresholds);
+  // File names are bytes of any kind; JSON is UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string failure_text(const Validation& report) {

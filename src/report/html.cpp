@@ -33,8 +33,8 @@ std::string base64(std::string_view bytes) {
 
 // Where a bar chart's things stand, in its own units.
 struct BarLayout {
-  double width = 520, height = 250;
-  double left = 8, right = 512, top = 58, bottom = 214;
+  double width = 520, height = 260;
+  double left = 8, right = 512, top = 68, bottom = 224;
   double largest = 1;
   std::size_t groups = 1, series = 1;
 

@@ -57,7 +57,8 @@ p { margin: 6px 0 12px; max-width: 78ch; }
 .chart .series1 { fill: var(--series1); }
 .chart .axis { stroke: var(--faint); }
 .wide { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-size: 14.5px; margin: 8px 0 16px; }
+table { border-collapse: collapse; width: 100%; min-width: 760px; font-size: 14.5px;
+  margin: 8px 0 16px; }
 th, td { text-align: left; padding: 6px 14px 6px 0; border-bottom: 1px solid var(--line);
   vertical-align: top; }
 th { color: var(--faint); font-weight: 600; }

@@ -102,13 +102,17 @@ std::string checks(const Validation& validation) {
   html::Table invariants{{"invariant", "worst", "allowed", "", "at entry"}, {}, 1, 3};
   for (const InvariantResult& result : validation.invariants) {
     const bool judged = result.checked && result.has_worst;
+    // Where all entries have the least value there is, none is worst.
+    const bool one_is_worst = judged && !(result.passed && result.value == 0);
     invariants.rows.push_back(
         {escaped(result.name), judged ? short_number(result.value) : "–",
-         fmt::format("{} {:.4g}", result.at_most ? "at most" : "above", result.limit),
+         result.checked && !result.has_worst
+             ? "–"
+             : fmt::format("{} {:.4g}", result.at_most ? "at most" : "above", result.limit),
          html::verdict(verdict_of(result)),
-         judged ? fmt::format("<code>{}</code> <span class=\"faint\">{}</span>",
-                              entry_text(grid, result.worst), lobe_text(grid, result.worst))
-                : ""});
+         one_is_worst ? fmt::format("<code>{}</code> <span class=\"faint\">{}</span>",
+                                    entry_text(grid, result.worst), lobe_text(grid, result.worst))
+                      : ""});
   }
   html::Table thresholds{{"threshold", "table", "allowed", "", "key"}, {}, 1, 3};
   for (const ThresholdCheck& check : validation.thresholds)
@@ -182,16 +186,17 @@ std::string charts(const QualityReport& quality) {
   return html + "</div>\n";
 }
 
-std::string worst_queries(const QualityReport& quality) {
-  html::Table table{
-      {"query", "loss", "floor", "area lights", "floor", "fit that very lobe"}, {}, 0, 5};
+std::string worst_queries(const Validation& validation) {
+  const QualityReport& quality = validation.quality.value();
+  html::Table table{{"query", "loss", "floor", "area lights", "floor", "look into it"}, {}, 0, 5};
   for (const std::size_t i : quality.worst_queries)
     table.rows.push_back(
         {fmt::format("{}", i), number(quality.queries[i].relative_loss, 3),
          number(quality.floors[i].relative_loss, 3),
          number(quality.queries[i].area_light.mean_absolute, 4),
          number(quality.floors[i].area_light.mean_absolute, 4),
-         fmt::format("<code>{}</code>", escaped(query_command(quality.floors[i].lobe)))});
+         fmt::format("<code>{}</code>",
+                     escaped(query_command(validation.file, quality.floors[i].lobe)))});
   return "<h2>Furthest above the floor</h2>\n" + html::table(table);
 }
 
@@ -242,7 +247,7 @@ std::string validation_page(const Validation& validation, const PageSettings& se
                             Progress* progress) {
   const QualityReport& quality = validation.quality.value();
   std::string body = header(validation) + tiles(validation) + checks(validation) +
-                     figures(quality) + charts(quality) + worst_queries(quality);
+                     figures(quality) + charts(quality) + worst_queries(validation);
   body += pictures_html(lobe_pictures(validation, settings.lobes, threads, progress));
   body += "<h2>The whole table</h2>\n<div class=\"pair\">\n" +
           pictures_html(table_pictures(validation)) + "</div>\n";

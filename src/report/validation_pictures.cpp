@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "core/shell_quoted.h"
 #include "render/missing_albedo.h"
 #include "render/sphere_picture.h"
 #include "table/entry_text.h"
@@ -79,6 +80,7 @@ struct LobeToDraw {
   GgxLobe lobe;
   Eigen::Matrix3d matrix;
   std::string title, words;
+  std::string command;  // that looks into it
 };
 
 std::vector<LobeToDraw> worst_lobes(const Validation& validation, std::size_t most) {
@@ -94,7 +96,8 @@ std::vector<LobeToDraw> worst_lobes(const Validation& validation, std::size_t mo
                      quality.queries[i].relative_loss, floor.relative_loss),
          fmt::format("LTC as the table's look-up gives it; error under area lights {:.4f}, floor "
                      "{:.4f}",
-                     quality.queries[i].area_light.mean_absolute, floor.area_light.mean_absolute)});
+                     quality.queries[i].area_light.mean_absolute, floor.area_light.mean_absolute),
+         query_command(validation.file, floor.lobe)});
   }
   return lobes;
 }
@@ -112,7 +115,9 @@ std::vector<LobeToDraw> failing_entries(const Validation& validation, std::size_
     drawn.push_back(flat);
     lobes.push_back({table.grid.lobe(table.grid.node(flat)), table.matrix_at(flat),
                      fmt::format("Entry {} fails: {}", entry_text(table.grid, flat), result.name),
-                     result.message});
+                     result.message,
+                     fmt::format("ltcfit fit --as-in {} --entry {}", shell_quoted(validation.file),
+                                 entry_text(table.grid, flat))});
   }
   return lobes;
 }
@@ -152,7 +157,7 @@ std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_
   });
   std::vector<NamedPicture> pictures;
   for (std::size_t i = 0; i < to_draw.size(); ++i)
-    pictures.push_back({to_draw[i].title, lobe_words(to_draw[i].lobe), std::move(*canvases[i])});
+    pictures.push_back({to_draw[i].title, to_draw[i].command, std::move(*canvases[i])});
   return pictures;
 }
 

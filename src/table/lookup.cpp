@@ -61,6 +61,11 @@ double roughness_ratio(const GgxLobe& folded) {
   return folded.alpha_x == 0 ? 1.0 : folded.alpha_y / folded.alpha_x;
 }
 
+bool within(const Axis& axis, double value) {
+  constexpr double no_matter = 1e-3;
+  return value >= axis.first() - no_matter && value <= axis.last() + no_matter;
+}
+
 // What the query's roughness is to the table: as at the nodes, never below alpha_min.
 GgxLobe bounded_below(GgxLobe lobe, double alpha_min) {
   lobe.alpha_x = std::max(lobe.alpha_x, alpha_min);
@@ -97,6 +102,11 @@ Interpolation interpolation(const Grid& grid, const GgxLobe& folded) {
         alpha.weights[a] * lambda.weights[l] * theta.weights[t] * phi.weights[p];
   }
   return result;
+}
+
+bool covers(const Grid& grid, const GgxLobe& folded) {
+  return within(grid.alpha, folded.alpha_x) && within(grid.lambda, roughness_ratio(folded)) &&
+         within(grid.theta, folded.theta_radians) && within(grid.phi, folded.phi_radians);
 }
 
 LookUp look_up(const Table& table, const GgxLobe& lobe) {

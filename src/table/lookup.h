@@ -29,6 +29,10 @@ struct Interpolation {
 };
 Interpolation interpolation(const Grid& grid, const GgxLobe& folded);
 
+// Whether a folded lobe is on the axes, or so little beyond them that clamping is no matter: the
+// last node of the paper's theta is 1.6e-4 from the horizon.
+bool covers(const Grid& grid, const GgxLobe& folded);
+
 // What a shader has after the fetch. NaN where a needed node is skipped or failed, or the lobe is
 // NaN. With a storage other than `matrix`, the roughnesses that scale S are at least alpha_min.
 // Where `unfold` is a reflection (each sign of -1 and the swap count one), the determinant is

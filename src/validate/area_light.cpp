@@ -48,18 +48,38 @@ double mean_distance(const WeightedSamples& samples, const Eigen::Vector3d& mean
   return (from_mean.square().rowwise().sum().sqrt() * samples.weight).sum() / samples.weight.sum();
 }
 
-// A sample drawn in proportion to its weight.
-Eigen::Index draw_sample(const WeightedSamples& samples, Random& random) {
-  for (;;) {
-    const auto i =
-        static_cast<Eigen::Index>(random.uniform() * static_cast<double>(samples.weight.size()));
-    if (random.uniform() < samples.weight[i])
-      return i;
+// Points of the unit cube in six dimensions: the additive recurrence of Roberts' generalised golden
+// ratio, shifted by the seed.
+class QuadSequence {
+ public:
+  QuadSequence(std::uint64_t seed, std::uint64_t first) : index_(first) {
+    Random random(seed);
+    for (double& shift : shifts_)
+      shift = random.uniform();
   }
-}
 
-double draw_size_factor(Random& random) {
-  return std::pow(largest_size_factor, 2 * random.uniform() - 1);
+  using Point = std::array<double, 6>;
+  Point next() {
+    constexpr double ratio = 1.1127756842787055;  // the real root of x^7 = x + 1
+    ++index_;
+    Point point;
+    double step = 1;
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      step /= ratio;
+      const double position = shifts_[i] + static_cast<double>(index_) * step;
+      point[i] = position - std::floor(position);
+    }
+    return point;
+  }
+
+ private:
+  Point shifts_{};
+  std::uint64_t index_;
+};
+
+// From the inverse of the largest factor up to it.
+double size_factor(double uniform) {
+  return std::pow(largest_size_factor, 2 * uniform - 1);
 }
 
 // Normals of the planes through the origin and each side, inwards.
@@ -106,7 +126,7 @@ AreaLightJudge::AreaLightJudge(const AreaLightSettings& settings)
 void AreaLightJudge::set_lobe(const GgxLobe& lobe, std::uint64_t draw) {
   for (std::size_t half = 0; half < 2; ++half)
     sample_weighted(lobe, lattices_[half], samples_[half]);
-  draw_quads(samples_[0], draw);
+  draw_quads(lobe, draw);
 
   const std::array<double, 2> totals{samples_[0].weight.sum(), samples_[1].weight.sum()};
   amplitude_ = (samples_[0].weight.mean() + samples_[1].weight.mean()) / 2;
@@ -122,19 +142,24 @@ void AreaLightJudge::set_lobe(const GgxLobe& lobe, std::uint64_t draw) {
   standard_error_ = std::sqrt(squared_errors / static_cast<double>(quads_.size()));
 }
 
-void AreaLightJudge::draw_quads(const WeightedSamples& samples, std::uint64_t draw) {
-  const double scale = mean_distance(samples, mean_offset(samples));
-  Random random(settings_.seed + 2 + draw);
+void AreaLightJudge::draw_quads(const GgxLobe& lobe, std::uint64_t draw) {
+  constexpr double full_turn = 2 * std::numbers::pi;
+  const double scale = mean_distance(samples_[0], mean_offset(samples_[0]));
+  const GgxSampler sampler(lobe);
+  QuadSequence sequence(settings_.seed + 2, draw * settings_.quads);
   quads_.clear();
-  for (std::size_t i = 0; i < settings_.quads; ++i) {
-    const Eigen::Vector3d center =
-        (samples.mirror + samples.offset.row(draw_sample(samples, random)).matrix().transpose())
-            .normalized();
-    const double angle = 2 * std::numbers::pi * random.uniform();
+  while (quads_.size() < settings_.quads) {
+    const auto [azimuth, height, acceptance, turn, size_u, size_v] = sequence.next();
+    const GgxSample sample = sampler.reflect(sampler.visible_normal(
+        std::cos(full_turn * azimuth), std::sin(full_turn * azimuth), height));
+    if (acceptance >= sample.weight)
+      continue;
+    const Eigen::Vector3d center = (sampler.mirror() + sample.offset).normalized();
     const Eigen::Vector3d across = center.unitOrthogonal();
-    const Eigen::Vector3d u = std::cos(angle) * across + std::sin(angle) * center.cross(across);
-    const Eigen::Vector3d half_u = scale * draw_size_factor(random) * u;
-    const Eigen::Vector3d half_v = scale * draw_size_factor(random) * center.cross(u);
+    const Eigen::Vector3d u =
+        std::cos(full_turn * turn) * across + std::sin(full_turn * turn) * center.cross(across);
+    const Eigen::Vector3d half_u = scale * size_factor(size_u) * u;
+    const Eigen::Vector3d half_v = scale * size_factor(size_v) * center.cross(u);
     quads_.push_back({center - half_u - half_v, center + half_u - half_v, center + half_u + half_v,
                       center - half_u + half_v});
   }

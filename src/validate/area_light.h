@@ -16,7 +16,7 @@
 namespace ltc {
 
 struct AreaLightSettings {
-  std::size_t quads = 16;       // random rectangles a lobe, >= 1
+  std::size_t quads = 64;       // random rectangles a lobe, >= 1
   std::size_t samples = 16384;  // weighted samples of the lobe, >= 64, in two independent halves
   std::uint64_t seed = 20220712;
 };
@@ -31,7 +31,9 @@ struct AreaLightError {
 // A rectangle is flat, at distance 1 from the shaded point, perpendicular to its central direction
 // and turned about it at random. Its central direction is a sample of the lobe; each of its half
 // sides is the lobe's mean distance from its mean direction times a factor whose logarithm is
-// uniform from log(1/2) to log(2).
+// uniform from log(1/2) to log(2). All six choices are made by one low-discrepancy sequence, of
+// which every draw takes a part of its own: rectangles are spread evenly about each lobe and over
+// all lobes, and do not depend on the samples.
 class AreaLightJudge {
  public:
   // Throws InputError for settings out of range.
@@ -58,7 +60,7 @@ class AreaLightJudge {
   double amplitude() const { return amplitude_; }  // of the lobe
 
  private:
-  void draw_quads(const WeightedSamples& samples, std::uint64_t draw);
+  void draw_quads(const GgxLobe& lobe, std::uint64_t draw);
 
   AreaLightSettings settings_;
   std::array<VisibleNormalLattice, 2> lattices_;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "validate/jump_blame.h"
 #include "validate/lobe_quantiles.h"
 
 namespace ltc {
@@ -45,6 +46,7 @@ class LobeMeter {
       : table_(table),
         judged_(judged),
         prototype_(effort.samples, effort.directions, blocks),
+        suspicious_(effort.suspicious_jump),
         threads_(threads),
         progress_(progress),
         layer_entries_(strides(table.grid)[0]),
@@ -52,7 +54,6 @@ class LobeMeter {
         here_(layer_entries_, prototype_.size()),
         jumps_(axes * table.grid.size(), static_cast<float>(nan)) {
     measures_.loss_excess.assign(table.grid.size(), nan);
-    measures_.neighbour_excess.assign(table.grid.size(), nan);
   }
 
   LobeMeasures measure() {
@@ -67,30 +68,38 @@ class LobeMeter {
     }
     if (progress_)
       progress_->end_stage();
-    count_jumps();
+    measures_.neighbour_excess =
+        blame_jumps(table_.grid, std::move(jumps_), suspicious_,
+                    [&](std::size_t a, std::size_t b) { return jump_anew(a, b); });
     return std::move(measures_);
   }
 
  private:
   void measure_layer(std::size_t first) {
-    const std::size_t size = prototype_.size();
     parallel_for_each<LobeQuantiles>(
         "lobes", layer_entries_, threads_, nullptr, [&] { return prototype_; },
         [&](std::size_t i, LobeQuantiles& quantiles) {
           const std::size_t flat = first + i;
           if (judged_[flat]) {
-            const LobeFrame frame(table_.grid.lobe(table_.grid.node(flat)));
-            float* const ggx = &here_.ggx[i * size];
-            float* const ltc = &here_.ltc[i * size];
-            quantiles.of_ggx(frame, ggx);
-            quantiles.of_ltc(frame, table_.matrix_at(flat), ltc);
-            here_.spread[i] = quantiles.spread(ggx);
-            measures_.loss_excess[flat] = quantiles.distance(ggx, ltc) /
-                                          (table_.sw_loss[flat] + loss_noise * here_.spread[i]);
+            const double distance = measure_entry(flat, i, quantiles, here_);
+            measures_.loss_excess[flat] =
+                distance / (table_.sw_loss[flat] + loss_noise * here_.spread[i]);
           }
           if (progress_)
             progress_->advance();
         });
+  }
+
+  // Fills place i of a layer; the distance of the two lobes.
+  double measure_entry(std::size_t flat, std::size_t i, LobeQuantiles& quantiles,
+                       Layer& layer) const {
+    const LobeFrame frame(table_.grid.lobe(table_.grid.node(flat)));
+    float* const ggx = &layer.ggx[i * prototype_.size()];
+    float* const ltc = &layer.ltc[i * prototype_.size()];
+    quantiles.of_ggx(frame, ggx);
+    quantiles.of_ltc(frame, table_.matrix_at(flat), ltc);
+    layer.spread[i] = quantiles.spread(ggx);
+    return quantiles.distance(ggx, ltc);
   }
 
   // The jumps from each entry of the layer to those before it along the four axes.
@@ -113,34 +122,19 @@ class LobeMeter {
     return ltc / (ggx + jump_noise * std::min(layer_a.spread[a], layer_b.spread[b]));
   }
 
-  // Calls visit(entry, neighbour, jump) for every pair of judged entries, once.
-  template <typename Visit>
-  void for_each_jump(Visit visit) const {
-    const auto stride = strides(table_.grid);
-    for (std::size_t flat = 0; flat < table_.grid.size(); ++flat)
-      for (std::size_t axis = 0; axis < axes; ++axis)
-        if (const double jump = jumps_[axes * flat + axis]; !std::isnan(jump))
-          visit(flat, flat - stride[axis], jump);
-  }
-
-  void count_jumps() {
-    std::vector<double> sum(table_.grid.size()), pairs(table_.grid.size());
-    for_each_jump([&](std::size_t a, std::size_t b, double jump) {
-      for (const std::size_t flat : {a, b}) {
-        sum[flat] += jump;
-        pairs[flat] += 1;
-        measures_.neighbour_excess[flat] = 0;
-      }
-    });
-    for_each_jump([&](std::size_t a, std::size_t b, double jump) {
-      double& value = measures_.neighbour_excess[sum[a] / pairs[a] >= sum[b] / pairs[b] ? a : b];
-      value = std::max(value, jump);
-    });
+  // The jump between two entries wherever they are, measured anew.
+  double jump_anew(std::size_t a, std::size_t b) {
+    Layer pair(2, prototype_.size());
+    LobeQuantiles quantiles = prototype_;
+    measure_entry(a, 0, quantiles, pair);
+    measure_entry(b, 1, quantiles, pair);
+    return jump(pair, 0, pair, 1);
   }
 
   const Table& table_;
   const std::vector<bool>& judged_;
   const LobeQuantiles prototype_;
+  const double suspicious_;
   const int threads_;
   Progress* const progress_;
   const std::size_t layer_entries_;

@@ -13,8 +13,9 @@
 namespace ltc {
 
 struct LobeEffort {
-  std::size_t samples = 0;     // of a lobe
-  std::size_t directions = 0;  // that they are projected on
+  std::size_t samples = 0;       // of a lobe
+  std::size_t directions = 0;    // that they are projected on
+  double suspicious_jump = 1.3;  // above it, neighbours are compared past an entry (jump_blame.h)
 };
 
 // One value an entry; NaN for entries that are not judged. Distances are those of LobeQuantiles,
@@ -26,8 +27,7 @@ struct LobeMeasures {
 
   // With d the distance of the LTCs of two adjacent nodes and g that of their GGX lobes, a jump is
   // d over g plus three hundredths of the smaller spread; adjacent along one axis, one node apart.
-  // A broken entry jumps to all its neighbours, and they to it alone: of the two nodes the jump is
-  // counted to that whose jumps are larger in the mean, and an entry's value is the largest that is
+  // Each jump is counted to one of the two (jump_blame.h); an entry's value is the largest that is
   // counted to it, 0 if none is.
   std::vector<double> neighbour_excess;
 };

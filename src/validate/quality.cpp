@@ -24,10 +24,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// A look-up clamps what is beyond an axis; so little beyond is no matter. The last node of the
-// paper's theta is 1.6e-4 from the horizon.
-constexpr double beyond_axis = 1e-3;
-
 void check(const QualitySettings& settings) {
   const auto require = [](const char* what, std::size_t value, std::size_t least) {
     if (value < least)
@@ -61,16 +57,6 @@ HeldOutJudge query_judge(const QualitySettings& settings, std::size_t query) {
 double relative_loss(HeldOutJudge judge, const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
   const PairJudgement judgement = judge.judge_pair(lobe, matrix, matrix);
   return judgement.loss_a / judgement.spread;
-}
-
-bool within(const Axis& axis, double value) {
-  return value >= axis.first() - beyond_axis && value <= axis.last() + beyond_axis;
-}
-
-bool covers(const Grid& grid, const GgxLobe& folded) {
-  return within(grid.alpha, folded.alpha_x) &&
-         within(grid.lambda, folded.alpha_y / folded.alpha_x) &&
-         within(grid.theta, folded.theta_radians) && within(grid.phi, folded.phi_radians);
 }
 
 QueryQuality left_out(QueryState state) {

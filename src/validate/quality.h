@@ -35,7 +35,7 @@ struct QualitySettings {
   QueryRange range;
   std::size_t query_samples = 16384;
   std::size_t query_directions = 32;
-  std::size_t quads = 16;            // rectangles a query, of AreaLightJudge
+  std::size_t quads = 64;            // rectangles a query, of AreaLightJudge
   std::size_t quad_samples = 16384;  // weighted samples of the lobe, in two halves
   std::uint64_t seed = 20220712;     // of nodes, queries, samples, directions and rectangles
   std::size_t worst = 6;             // queries to name

@@ -12,6 +12,7 @@
 
 #include "core/angle.h"
 #include "core/quantile.h"
+#include "core/shell_quoted.h"
 
 namespace ltc {
 namespace {
@@ -217,10 +218,11 @@ std::string band_text(const Bands& bands, const Band& band) {
   return fmt::format("{:.4g}–{:.4g}{}", band.first, band.last, bands.unit);
 }
 
-std::string query_command(const GgxLobe& lobe) {
-  return fmt::format("ltcfit fit --alpha-x {:.9g} --alpha-y {:.9g} --theta {:.9g} --phi {:.9g}",
-                     lobe.alpha_x, lobe.alpha_y, lobe.theta_radians / radians_per_degree,
-                     lobe.phi_radians / radians_per_degree);
+std::string query_command(const std::string& file, const GgxLobe& lobe) {
+  return fmt::format(
+      "ltcfit fit --as-in {} --alpha-x {:.9g} --alpha-y {:.9g} --theta {:.9g} --phi {:.9g}",
+      shell_quoted(file), lobe.alpha_x, lobe.alpha_y, lobe.theta_radians / radians_per_degree,
+      lobe.phi_radians / radians_per_degree);
 }
 
 }  // namespace ltc

@@ -36,7 +36,8 @@ std::string failure_line(const ThresholdCheck& check);
 // "0.1–0.2", "> 75°".
 std::string band_text(const Bands& bands, const Band& band);
 
-// The command that fits this very lobe: "ltcfit fit --alpha-x 0.04 …".
-std::string query_command(const GgxLobe& lobe);
+// The command that shows what the table in a file gives for a lobe, and an LTC fitted to that very
+// lobe beside it: "ltcfit fit --as-in out/ltc.h5 --alpha-x 0.04 …".
+std::string query_command(const std::string& file, const GgxLobe& lobe);
 
 }  // namespace ltc

@@ -159,7 +159,7 @@ TEST(Diff, TheJsonHasTheReport) {
   EXPECT_EQ(json["rows"][0]["distance"]["largest_entry"], "0,1,0,2");
   for (const char* list : {"ratio", "distance"}) {
     ASSERT_EQ(json["worst"][list].size(), 1u) << "the others are equal";
-    EXPECT_EQ(json["worst"][list][0]["command_a"], "ltcfit fit --config bad.h5 --entry 0,1,0,2");
+    EXPECT_EQ(json["worst"][list][0]["command_a"], "ltcfit fit --as-in bad.h5 --entry 0,1,0,2");
     EXPECT_EQ(json["worst"][list][0]["relative_distance"], expected[bad].relative_distance());
   }
 }
@@ -191,21 +191,15 @@ TEST(Diff, ArraysOfMatricesHaveNoTermsToCompare) {
   EXPECT_EQ(row(result.out, "alpha 0.000").at(0), 8);
 }
 
-TEST(Diff, ATableWithoutConfigIsLookedIntoByItsOwnMatrix) {
+TEST(Diff, ATableWithoutConfigIsLookedIntoAsItIs) {
   const TemporaryDirectory folder;
-  const auto command_for = [&](const Grid& grid) {
-    Table table = testing::synthetic_table(grid, Storage::matrix);
-    write_npy(table, folder / "good.npy");
-    table.set_stored(table.grid.size() - 1, Eigen::Matrix3d::Identity());
-    write_npy(table, folder / "bad.npy");
-    run_ltcfit(diff("bad.npy", "good.npy", {"--json", "all.json"}), folder.path());
-    return Json::parse(read_file(folder / "all.json"))["worst"]["distance"][0]["command_a"]
-        .get<std::string>();
-  };
-  EXPECT_EQ(command_for(Grid::paper({8, 8, 8, 8})),
-            "ltcfit fit --entry 7,7,7,7 --start from=bad.npy");
-  EXPECT_EQ(command_for(Grid::paper(2)),
-            "ltcfit fit --alpha-x 1 --alpha-y 1 --theta 89.991 --phi 90 --start from=bad.npy");
+  Table table = testing::synthetic_table(Grid::paper(2), Storage::matrix);
+  write_npy(table, folder / "good.npy");
+  table.set_stored(table.grid.size() - 1, Eigen::Matrix3d::Identity());
+  write_npy(table, folder / "it's bad.npy");
+  run_ltcfit(diff("it's bad.npy", "good.npy", {"--json", "all.json"}), folder.path());
+  EXPECT_EQ(Json::parse(read_file(folder / "all.json"))["worst"]["distance"][0]["command_a"],
+            "ltcfit fit --as-in 'it'\\''s bad.npy' --entry 1,1,1,1");
 }
 
 TEST(Diff, TheMapIsAPicture) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "export/hdf5.h"
 #include "export/same_tables.h"
@@ -68,6 +70,68 @@ TEST(RefineProgram, BettersWhatLiesBetweenTheNodes) {
   const std::size_t moved = before.grid.flat({1, 1, 1, 1});
   EXPECT_NE(after.matrix_at(moved), before.matrix_at(moved));
   EXPECT_NE(after.sw_loss[moved], before.sw_loss[moved]);
+}
+
+// The matrix that a printed command shows as stored.
+Eigen::Matrix3d shown_by(const std::string& command, const TemporaryDirectory& folder) {
+  const ProgramResult fit =
+      run_program({"sh", "-c", std::string(LTCFIT_PROGRAM).append(command, 6).append(" --json")},
+                  folder.path());
+  EXPECT_EQ(fit.exit_code, 0) << command << fit.err;
+  const auto rows = nlohmann::json::parse(fit.out)["matrix"]["stored"];
+  Eigen::Matrix3d matrix;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      matrix(row, column) = rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+  return matrix;
+}
+
+// Every line of `text` that has `label` in front of a command names an entry of the table, and the
+// command shows it bit for bit.
+void expect_commands_show(const std::string& text, const std::string& label, const Table& table,
+                          const TemporaryDirectory& folder, std::size_t commands) {
+  std::istringstream lines(text);
+  std::size_t found = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(label), begin = line.find("ltcfit fit ");
+    if (at == std::string::npos || begin == std::string::npos)
+      continue;
+    ++found;
+    NodeIndex node;
+    ASSERT_EQ(sscanf(line.c_str() + line.rfind(' '), "%zu,%zu,%zu,%zu", &node.alpha, &node.lambda,
+                     &node.theta, &node.phi),
+              4);
+    EXPECT_EQ(shown_by(line.substr(begin), folder), table.stored_at(table.grid.flat(node))) << line;
+  }
+  EXPECT_EQ(found, commands) << text;
+}
+
+TEST(RefineProgram, CommandsShowWhatIsStoredAndWhatWasFitted) {
+  const TemporaryDirectory folder;
+  ASSERT_EQ(run_ltcfit(generate({"-o", "fitted"}), folder.path()).exit_code, 0);
+  const ProgramResult made =
+      run_ltcfit(generate({"-o", "refined", "--set", "refine.steps=2"}), folder.path());
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const Table before = read_hdf5(folder / "fitted/ltc.h5"),
+              after = read_hdf5(folder / "refined/ltc.h5");
+  expect_commands_show(made.out, "in the table:", after, folder, 5);
+  expect_commands_show(made.out, "before refinement:", before, folder, 5);
+  // So do those of validate; and diff prints what tells the two tables apart.
+  const ProgramResult checked = run_ltcfit(
+      {"validate", "--no-quality", "refined/ltc.h5", "--set", "invariants.condition_number=1",
+       "--set", "invariants.alignment_degrees=180", "--set", "invariants.neighbour_excess=1000"},
+      folder.path());
+  EXPECT_EQ(checked.exit_code, 1);
+  expect_commands_show(checked.out, "in the table:", after, folder, 5);
+  expect_commands_show(checked.out, "before refinement:", before, folder, 5);
+  const ProgramResult compared = run_ltcfit(
+      {"diff", "refined/ltc.h5", "fitted/ltc.h5", "--samples", "256", "--directions", "4"},
+      folder.path());
+  ASSERT_EQ(compared.exit_code, 0) << compared.err;
+  EXPECT_NE(compared.out.find("    A: ltcfit fit --as-in refined/ltc.h5 --entry "),
+            std::string::npos);
+  EXPECT_NE(compared.out.find("    B: ltcfit fit --config fitted/ltc.h5 --entry "),
+            std::string::npos);
 }
 
 TEST(RefineProgram, ServesAScene) {

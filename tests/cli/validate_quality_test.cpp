@@ -57,8 +57,9 @@ TEST_F(ValidateQuality, IsPrintedAndWrittenAsJson) {
   const ProgramResult result =
       run_ltcfit(quick(lenient({"validate", table(), "--json", "r.json"})), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  for (const char* words : {"loss / spread between nodes", "by perceptual roughness", "by theta",
-                            "queries furthest above the floor", "ltcfit fit --alpha-x"})
+  for (const std::string& words : std::vector<std::string>{
+           "loss / spread between nodes", "by perceptual roughness", "by theta",
+           "queries furthest above the floor", "ltcfit fit --as-in " + table() + " --alpha-x"})
     EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
   const Json quality = Json::parse(read_file(folder / "r.json"))["quality"];
   EXPECT_EQ(quality["queries"].size(), 20u);

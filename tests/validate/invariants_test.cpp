@@ -240,6 +240,46 @@ TEST(Invariants, SwappedNeighboursAreBothNamed) {
   }
 }
 
+// Two adjacent entries, broken in different ways, inside the table and along its edges: without the
+// stored losses, as in an .npy, both are named and no other.
+TEST(Invariants, AdjacentBrokenEntriesAreBothNamedByTheirJumps) {
+  using M = Eigen::Matrix3d;
+  const auto turned = [](const M& m) -> M { return turn(30) * m; };
+  const auto negated = [](const M& m) -> M { return -m; };
+  const auto wider = [](M m) {
+    m.col(0) *= 2.5;
+    return m;
+  };
+  const auto tilted = [](const M& m) -> M {
+    return Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix() * m;
+  };
+  using Fault = std::function<M(const M&)>;
+  struct Pair {
+    NodeIndex a;
+    Fault of_a;
+    NodeIndex b;
+    Fault of_b;
+  };
+  const std::vector<Pair> pairs = {
+      {{1, 1, 1, 1}, turned, {2, 1, 1, 1}, negated}, {{2, 1, 2, 1}, wider, {2, 2, 2, 1}, tilted},
+      {{1, 2, 2, 2}, negated, {1, 2, 1, 2}, wider},  {{2, 2, 2, 1}, tilted, {2, 2, 2, 2}, negated},
+      {{3, 1, 2, 0}, wider, {3, 1, 2, 1}, negated},  {{1, 0, 2, 3}, turned, {2, 0, 2, 3}, tilted},
+      {{2, 3, 2, 1}, tilted, {1, 3, 2, 1}, negated}, {{1, 1, 3, 3}, negated, {1, 1, 2, 3}, wider},
+  };
+  const TableContents matrices_only{.albedo = false, .loss = false};
+  for (const Pair& pair : pairs) {
+    Table table = good_table();
+    const std::size_t a = table.grid.flat(pair.a), b = table.grid.flat(pair.b);
+    SCOPED_TRACE(a);
+    replace_matrix(table, a, pair.of_a);
+    replace_matrix(table, b, pair.of_b);
+    const std::vector<InvariantResult> results =
+        check_invariants(table, InvariantLimits{}, 1, nullptr, matrices_only);
+    const std::vector<std::size_t>& entries = named(results, "neighbours").entries;
+    EXPECT_EQ(std::set<std::size_t>(entries.begin(), entries.end()), (std::set<std::size_t>{a, b}));
+  }
+}
+
 TEST(Invariants, OnlyEntriesThatAreNotSkippedAreJudged) {
   Table table = good_table();
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {

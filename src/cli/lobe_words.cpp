@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/lobe_words.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <array>
+
+#include "core/angle.h"
+#include "validate/matrix_invariants.h"
+
+namespace ltc::cli {
+namespace {
+
+double degrees(double radians) {
+  return radians / radians_per_degree;
+}
+
+}  // namespace
+
+std::string lobe_line(const GgxLobe& lobe) {
+  return fmt::format("alpha_x {:.6g}, alpha_y {:.6g}, theta {:.6g}, phi {:.6g}", lobe.alpha_x,
+                     lobe.alpha_y, degrees(lobe.theta_radians), degrees(lobe.phi_radians));
+}
+
+std::string lobe_caption(const GgxLobe& lobe) {
+  return fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", lobe.alpha_x,
+                     lobe.alpha_y, degrees(lobe.theta_radians), degrees(lobe.phi_radians));
+}
+
+std::string status_word(Status status) {
+  constexpr std::array<const char*, 5> words = {"skipped", "fitted", "copied", "analytic",
+                                                "failed"};
+  return words.at(static_cast<std::size_t>(status));
+}
+
+std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix) {
+  std::string text;
+  for (int row = 0; row < 3; ++row)
+    text += fmt::format("{:<9}{:>16.8e} {:>16.8e} {:>16.8e}\n", row == 0 ? name : "",
+                        matrix(row, 0), matrix(row, 1), matrix(row, 2));
+  return text + fmt::format("{:<9}determinant {:.4e}, condition number {:.4e}\n", "",
+                            matrix.determinant(), condition_number(matrix));
+}
+
+std::string loss_words(double held_out_loss, double spread) {
+  return fmt::format("{:.4e} held out, {:.3g} % of the lobe's spread {:.4e}", held_out_loss,
+                     100 * held_out_loss / spread, spread);
+}
+
+nlohmann::ordered_json lobe_json(const GgxLobe& lobe) {
+  return {{"alpha_x", lobe.alpha_x},
+          {"alpha_y", lobe.alpha_y},
+          {"theta_degrees", degrees(lobe.theta_radians)},
+          {"phi_degrees", degrees(lobe.phi_radians)}};
+}
+
+nlohmann::ordered_json matrix_json(const Eigen::Matrix3d& matrix) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (int row = 0; row < 3; ++row)
+    rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2)});
+  return rows;
+}
+
+}  // namespace ltc::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// How reports on one lobe write its parts.
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "brdf/ggx.h"
+#include "table/table.h"
+
+namespace ltc::cli {
+
+// "alpha_x 0.4, alpha_y 0.1, theta 60, phi 30", in degrees; and as the caption of a picture.
+std::string lobe_line(const GgxLobe& lobe);
+std::string lobe_caption(const GgxLobe& lobe);
+
+// "fitted", "analytic", …
+std::string status_word(Status status);
+
+// Four lines: the rows behind `name`, then determinant and condition number.
+std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix);
+
+// "1.2e-02 held out, 13 % of the lobe's spread 9.2e-02".
+std::string loss_words(double held_out_loss, double spread);
+
+nlohmann::ordered_json lobe_json(const GgxLobe& lobe);
+nlohmann::ordered_json matrix_json(const Eigen::Matrix3d& matrix);  // rows; null for NaN
+
+}  // namespace ltc::cli
