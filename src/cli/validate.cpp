@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/fit_command.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
@@ -39,9 +40,10 @@ std::string written_text(const std::filesystem::path& page) {
 void validate(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
-  const ValidateSettings settings =
-      load_validate_settings(arguments.config.path(), arguments.config.overrides);
   Validation report{arguments.table, read_table(arguments.table), {}, std::nullopt, {}};
+  const ValidateSettings settings = load_validate_settings(
+      arguments.config.path(), arguments.config.overrides,
+      is_refined(report.table) ? settings_for_refined_tables() : ValidateSettings{});
   const std::optional<OutputFolder> json_folder = folder_of_file(arguments.json);
   const std::optional<OutputFolder> page_folder = folder_of_file(page_of(arguments));
   report.invariants = check_invariants(report.table, settings.invariants, arguments.threads,
@@ -71,7 +73,9 @@ Action declare_validate(CLI::App& app) {
       ->required()
       ->option_text(" ");
   add_config_options(app, arguments->config,
-                     {"TOML file that says which limits differ from the defaults [none]",
+                     {"TOML file that says which limits differ from the defaults, those of "
+                      "config/validate.toml or, "
+                      "for a refined table, config/validate-refined.toml [none]",
                       "invariants.condition_number=1e5", "What to demand"});
   app.add_option("--json", arguments->json, "write all that was found to this file [none]")
       ->option_text("FILE")

@@ -16,7 +16,7 @@ struct QuerySampling {
 };
 
 struct RefineSettings {
-  int steps = 10;               // most outer steps, [0, 1000]; 0 for no refinement
+  int steps = 12;               // most outer steps, [0, 1000]; 0 for no refinement
   int queries_per_cell = 8;     // refined on, on average, [1, 1000]
   double table_share = 0.1;     // of them uniform in the table's own axes, not as asked for, [0, 1]
   double node_weight = 0.02;    // share of the objective that the nodes' own lobes have, [0, 1]

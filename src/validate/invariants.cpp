@@ -248,11 +248,11 @@ class Checks {
   // Measured once, when first asked for.
   const LobeMeasures& lobes() {
     if (!lobes_)
-      lobes_ =
-          measure_lobes(table_, invertible_,
-                        {static_cast<std::size_t>(limits_.samples),
-                         static_cast<std::size_t>(limits_.directions), limits_.neighbour_excess},
-                        threads_, progress_);
+      lobes_ = measure_lobes(
+          table_, invertible_,
+          {static_cast<std::size_t>(limits_.samples), static_cast<std::size_t>(limits_.directions),
+           limits_.neighbour_excess, limits_.neighbour_slack},
+          threads_, progress_);
     return *lobes_;
   }
 

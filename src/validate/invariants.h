@@ -26,6 +26,7 @@ struct InvariantLimits {
   double albedo_error = 2e-4;      // of amplitude and Fresnel against fresh quadrature
   double loss_excess = 1.2;        // LobeMeasures::loss_excess
   double neighbour_excess = 1.3;   // LobeMeasures::neighbour_excess
+  double neighbour_slack = 0;      // LobeEffort::slack
   int albedo_points = 16384;       // of the fresh quadrature
   int samples = 2048;              // of a lobe, for stored loss and neighbours
   int directions = 16;             // that they are projected on

@@ -47,6 +47,7 @@ class LobeMeter {
         judged_(judged),
         prototype_(effort.samples, effort.directions, blocks),
         suspicious_(effort.suspicious_jump),
+        slack_(effort.slack),
         threads_(threads),
         progress_(progress),
         layer_entries_(strides(table.grid)[0]),
@@ -119,7 +120,8 @@ class LobeMeter {
     const std::size_t size = prototype_.size();
     const double ltc = prototype_.distance(&layer_a.ltc[a * size], &layer_b.ltc[b * size]);
     const double ggx = prototype_.distance(&layer_a.ggx[a * size], &layer_b.ggx[b * size]);
-    return ltc / (ggx + jump_noise * std::min(layer_a.spread[a], layer_b.spread[b]));
+    return std::max(ltc - slack_, 0.0) /
+           (ggx + jump_noise * std::min(layer_a.spread[a], layer_b.spread[b]));
   }
 
   // The jump between two entries wherever they are, measured anew.
@@ -134,7 +136,7 @@ class LobeMeter {
   const Table& table_;
   const std::vector<bool>& judged_;
   const LobeQuantiles prototype_;
-  const double suspicious_;
+  const double suspicious_, slack_;
   const int threads_;
   Progress* const progress_;
   const std::size_t layer_entries_;

@@ -16,6 +16,7 @@ struct LobeEffort {
   std::size_t samples = 0;       // of a lobe
   std::size_t directions = 0;    // that they are projected on
   double suspicious_jump = 1.3;  // above it, neighbours are compared past an entry (jump_blame.h)
+  double slack = 0;              // distance between lobes that is no jump at all
 };
 
 // One value an entry; NaN for entries that are not judged. Distances are those of LobeQuantiles,
@@ -26,7 +27,8 @@ struct LobeMeasures {
   std::vector<double> loss_excess;
 
   // With d the distance of the LTCs of two adjacent nodes and g that of their GGX lobes, a jump is
-  // d over g plus three hundredths of the smaller spread; adjacent along one axis, one node apart.
+  // d less the slack over g plus three hundredths of the smaller spread; adjacent along one axis,
+  // one node apart.
   // Each jump is counted to one of the two (jump_blame.h); an entry's value is the largest that is
   // counted to it, 0 if none is.
   std::vector<double> neighbour_excess;

@@ -31,6 +31,7 @@ std::vector<Key> invariant_keys() {
       key("invariants.albedo_error", [](S& s) { return &s.invariants.albedo_error; }, Range{0, 1}, "largest error of amplitude and Fresnel against fresh quadrature"),
       key("invariants.loss_excess", [](S& s) { return &s.invariants.loss_excess; }, Range{0, unbounded}, "largest loss of a lobe over the stored one"),
       key("invariants.neighbour_excess", [](S& s) { return &s.invariants.neighbour_excess; }, Range{0, unbounded}, "largest jump between neighbours over that of GGX"),
+      key("invariants.neighbour_slack", [](S& s) { return &s.invariants.neighbour_slack; }, Range{0, 2}, "distance between neighbours' lobes that is no jump"),
       key("invariants.albedo_points", [](S& s) { return &s.invariants.albedo_points; }, Range{64, 1 << 20}, "points of the fresh quadrature"),
       key("invariants.samples", [](S& s) { return &s.invariants.samples; }, Range{1024, 65536}, "samples of a lobe, for stored loss and neighbours; fewer are too noisy for their limits"),
       key("invariants.directions", [](S& s) { return &s.invariants.directions; }, Range{4, 4096}, "directions that they are projected on"),
@@ -69,9 +70,19 @@ const std::vector<Key>& keys() {
 
 }  // namespace
 
-ValidateSettings load_validate_settings(const std::optional<std::filesystem::path>& file,
-                                        std::span<const std::string> overrides) {
+ValidateSettings settings_for_refined_tables() {
   ValidateSettings settings;
+  settings.invariants.alignment_degrees = 180;
+  settings.invariants.inverse_error = 0.1;
+  settings.invariants.neighbour_excess = 4;
+  settings.invariants.neighbour_slack = 0.05;
+  settings.thresholds = {5, 0.1, 0.018};
+  return settings;
+}
+
+ValidateSettings load_validate_settings(const std::optional<std::filesystem::path>& file,
+                                        std::span<const std::string> overrides,
+                                        ValidateSettings settings) {
   const config::Vocabulary vocabulary =
       config::vocabulary(keys(), settings, "config/validate.toml lists the keys there are");
   config::Sources sources;

@@ -23,10 +23,15 @@ struct ValidateSettings {
   QualityThresholds thresholds;  // in section quality too
 };
 
-// The defaults, then what `file` says if there is one, then the overrides in order, as load_config.
+// What is demanded of a table that was refined, config/validate-refined.toml: less error between
+// the nodes, but nodes that are no longer the best for their own lobes.
+ValidateSettings settings_for_refined_tables();
+
+// `settings`, then what `file` says if there is one, then the overrides in order, as load_config.
 // Throws InputError and IoError as load_config does.
 ValidateSettings load_validate_settings(const std::optional<std::filesystem::path>& file,
-                                        std::span<const std::string> overrides);
+                                        std::span<const std::string> overrides,
+                                        ValidateSettings settings = {});
 
 // What can be set, in the order of the file; validate_settings.cpp is where keys are added.
 std::vector<ConfigKey> validate_keys();
