@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/options.h"
+#include "cli/output.h"
 #include "config/overrides.h"
 #include "core/angle.h"
 #include "core/error.h"
@@ -30,6 +30,20 @@ std::string fit_command(const Table& table, const std::string& stem, std::size_t
   return fmt::format("ltcfit fit --alpha-x {:.6g} --alpha-y {:.6g} --theta {:.6g} --phi {:.6g}",
                      lobe.alpha_x, lobe.alpha_y, lobe.theta_radians / radians_per_degree,
                      lobe.phi_radians / radians_per_degree);
+}
+
+std::string fit_command(const ConfigArguments& config, const NamedLobe& lobe,
+                        const std::string& start) {
+  return fmt::format("ltcfit fit{} --alpha-x {} --alpha-y {} --theta {} --phi {}{}",
+                     config.as_text(), lobe.alpha_x, lobe.alpha_y, lobe.theta_degrees,
+                     lobe.phi_degrees, start.empty() ? "" : " --start " + shell_quoted(start));
+}
+
+std::string matrix_text(const Eigen::Matrix3d& matrix) {
+  std::string text;
+  for (int entry = 0; entry < 9; ++entry)
+    text += fmt::format("{}{}", entry == 0 ? "matrix=" : ",", matrix(entry / 3, entry % 3));
+  return text;
 }
 
 }  // namespace ltc::cli

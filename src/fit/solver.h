@@ -37,6 +37,8 @@ struct FitResult {
   double loss = 0;         // as the solver saw it, on its own samples
   int steps = 0;           // spent on all starts together
   FitOutcome outcome = FitOutcome::step_limit;
+  // The starts of the request led nowhere as good as the solver's own, which this is the end of.
+  bool start_abandoned = false;
 };
 
 struct FitRequest {
