@@ -33,7 +33,7 @@ struct Arguments {
   std::optional<std::size_t> fits;  // of each solver
   bool quick = false;
   std::optional<std::uint64_t> seed;  // of lobes and fits; empty: the config's
-  std::string json, map;              // empty: none
+  std::string json, csv, map;         // empty: none
   int threads = default_threads();
 };
 
@@ -206,6 +206,7 @@ void stress(const Arguments& arguments) {
   const StopOnInterrupt stop_on_interrupt(progress);
   const std::vector<Solver> solvers = solvers_of(arguments);
   const std::optional<OutputFolder> json_folder = folder_of_file(arguments.json);
+  const std::optional<OutputFolder> csv_folder = folder_of_file(arguments.csv);
   std::optional<OutputFolder> map_folder;
   if (!arguments.map.empty())
     map_folder.emplace(arguments.map);
@@ -214,6 +215,8 @@ void stress(const Arguments& arguments) {
     reports.push_back(run_solver(arguments, solver, progress));
   if (!arguments.json.empty())
     write_file(arguments.json, stress_json(reports));
+  if (!arguments.csv.empty())
+    write_file(arguments.csv, stress_csv(reports));
   if (map_folder)
     write_maps(map_folder->path(), reports);
   std::string text = fmt::format(
@@ -256,6 +259,9 @@ void add_what_options(CLI::App& app, Arguments& arguments) {
 void add_output_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "Where to write";
   app.add_option("--json", arguments.json, "all counts as JSON [none]")
+      ->option_text("FILE")
+      ->group(group);
+  app.add_option("--csv", arguments.csv, "every fit as a line [none]")
       ->option_text("FILE")
       ->group(group);
   app.add_option("--map", arguments.map,

@@ -39,10 +39,38 @@ constexpr double worthwhile_gain = 2e-3;
 // the lobe's spread: less than the samples of a fit can tell.
 constexpr double exact_first_order = 2.1e-3;
 
+// How far P0 is off: its error relative to the lobe's width is of this order.
+double first_order_error(const LobeFrame& frame) {
+  const double cosine = frame.omega_v.z();
+  return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) / (cosine * cosine);
+}
+
+// Lobes rougher than the first bound are told apart well by any samples. Where P0 is off by more
+// than the second, the view grazes and cosine samples and target have no noise in common.
+constexpr double roughest_paired = 0.14, furthest_paired = 1e3;
+
 bool first_order_is_exact(const LobeFrame& frame) {
   const double cosine = frame.omega_v.z();
   return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < exact_first_order * cosine * cosine;
 }
+
+bool narrow(const LobeFrame& frame) {
+  return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < roughest_paired &&
+         first_order_error(frame) < furthest_paired;
+}
+
+// cos 89.992 degrees: beyond the last node of a default table, the loss has several minima.
+constexpr double grazing_cosine = 1.4e-4;
+
+// How many starts such lobes, and those on the paired ladder, get at least.
+constexpr int starts_at_extremes = 3;
+
+bool has_several_minima(const LobeFrame& frame) {
+  return narrow(frame) || frame.omega_v.z() < grazing_cosine;
+}
+
+// A given start is abandoned where its coarse descent ends this share above the own one's.
+constexpr double clearly_worse = 2e-3;
 
 bool usable(const Eigen::Matrix3d& start) {
   return start.allFinite() && start.determinant() > 0;
@@ -51,6 +79,17 @@ bool usable(const Eigen::Matrix3d& start) {
 FitResult no_result(int steps) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return {Eigen::Matrix3d::Constant(nan), nan, steps, FitOutcome::non_finite};
+}
+
+// The first level that has samples enough for a lobe whose loss is this share of its spread.
+template <typename Levels>
+std::size_t level_for(const Levels& levels, double relative_loss) {
+  std::size_t level = 0;
+  while (level + 1 < levels.size() &&
+         static_cast<double>(levels[level].cosines.size()) * relative_loss <
+             samples_per_inverse_loss)
+    ++level;
+  return level;
 }
 
 }  // namespace
@@ -63,27 +102,58 @@ GaussNewtonSolver::Level GaussNewtonSolver::make_level(int samples, int steps, d
   return level;
 }
 
+GaussNewtonSolver::Ladder GaussNewtonSolver::make_ladder(const GaussNewtonSettings& settings) {
+  Ladder ladder;
+  ladder.lattice = make_target_lattice(static_cast<std::size_t>(settings.target_samples), 0.3);
+  ladder.light_lattice =
+      settings.adaptive
+          ? make_target_lattice(static_cast<std::size_t>(std::max(settings.target_samples / 2, 64)),
+                                0.3)
+          : ladder.lattice;
+  ladder.coarse =
+      make_level(settings.coarse_samples, settings.coarse_steps, settings.coarse_tolerance, 0.1);
+  for (const int divisor : {4, 2, 1}) {
+    const int samples = settings.samples / divisor;
+    if (divisor > 1 && (!settings.adaptive || samples < settings.coarse_samples))
+      continue;
+    ladder.levels.push_back(make_level(samples, settings.steps, settings.tolerance, 0.0));
+  }
+  return ladder;
+}
+
+// For narrow lobes. Each level draws the target from the very lattice of its cosine set: to first
+// order P0 sends a cosine sample to where the visible normal of the same lattice point reflects, so
+// that the noise of the heavy tails, which is that of the sets' outermost samples, is the same on
+// both sides and cancels. With sets of their own, noise is all that is left of the loss.
+GaussNewtonSolver::Ladder GaussNewtonSolver::make_paired_ladder(
+    const GaussNewtonSettings& settings) {
+  constexpr int least_coarse_samples = 1024;
+  const int coarse = std::max(settings.coarse_samples, least_coarse_samples);
+  Ladder ladder;
+  ladder.light_lattice = make_target_lattice(static_cast<std::size_t>(coarse));
+  ladder.lattice = make_target_lattice(static_cast<std::size_t>(settings.samples));
+  ladder.coarse = make_level(coarse, settings.coarse_steps, settings.coarse_tolerance, 0.0);
+  ladder.levels.push_back(make_level(settings.samples, settings.steps, settings.tolerance, 0.0));
+  return ladder;
+}
+
 GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target)
     : settings_(settings),
       target_kind_(target),
       directions_(in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)))),
       bins_(bins_for(settings.samples)),
-      lattice_(make_target_lattice(static_cast<std::size_t>(settings.target_samples), 0.3)),
-      light_lattice_(settings.adaptive ? make_target_lattice(static_cast<std::size_t>(std::max(
-                                                                 settings.target_samples / 2, 64)),
-                                                             0.3)
-                                       : lattice_),
-      coarse_(make_level(settings.coarse_samples, settings.coarse_steps, settings.coarse_tolerance,
-                         0.1)) {
-  coarse_.options.direction_stride =
-      static_cast<std::size_t>(std::max(1, settings.directions / settings.coarse_directions));
-  for (const int divisor : {4, 2, 1}) {
-    const int samples = settings.samples / divisor;
-    if (divisor > 1 && (!settings.adaptive || samples < settings.coarse_samples))
-      continue;
-    levels_.push_back(make_level(samples, settings.steps, settings.tolerance, 0.0));
-    levels_.back().options.damping = 1e-3;  // it starts next to a minimum
+      usual_(make_ladder(settings)),
+      paired_(make_paired_ladder(settings)) {
+  for (Ladder* ladder : {&usual_, &paired_}) {
+    ladder->coarse.options.direction_stride =
+        static_cast<std::size_t>(std::max(1, settings.directions / settings.coarse_directions));
+    for (Level& level : ladder->levels)
+      level.options.damping = 1e-3;  // it starts next to a minimum
   }
+}
+
+const GaussNewtonSolver::Ladder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
+  return target_kind_ == TargetKind::weighted && narrow(frame) ? paired_ : usual_;
 }
 
 void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed,
@@ -96,23 +166,16 @@ void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed,
                             workspace.model.bins);
 }
 
-std::size_t GaussNewtonSolver::level_for(double relative_loss) const {
-  std::size_t level = 0;
-  while (level + 1 < levels_.size() &&
-         static_cast<double>(levels_[level].cosines.size()) * relative_loss <
-             samples_per_inverse_loss)
-    ++level;
-  return level;
-}
-
 std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& frame,
                                                            std::uint64_t seed,
                                                            const FitWorkspace& workspace) const {
+  const int count =
+      has_several_minima(frame) ? std::max(settings_.starts, starts_at_extremes) : settings_.starts;
   std::vector<Eigen::Matrix3d> starts = {moment_start(frame, workspace.target),
                                          first_order_start(frame), identity_start(frame)};
-  for (int i = 3; i < settings_.starts; ++i)
+  for (int i = 3; i < count; ++i)
     starts.push_back(random_start(frame, workspace.target, seed + static_cast<std::uint64_t>(i)));
-  starts.resize(static_cast<std::size_t>(settings_.starts));
+  starts.resize(static_cast<std::size_t>(count));
   return starts;
 }
 
@@ -120,138 +183,195 @@ FitResult GaussNewtonSolver::analytic_result(const LobeFrame& frame,
                                              FitWorkspace& workspace) const {
   const Eigen::Matrix3d p = admissible(frame.first_order, free_entries(frame.lobe));
   ModelValue value;
-  evaluate_model(frame, p, levels_.back().cosines, workspace.quantiles, 1,
+  evaluate_model(frame, p, usual_.levels.back().cosines, workspace.quantiles, 1,
                  workspace.quantiles.spread(), workspace.model, value);
   return {frame.to_matrix(p), value.loss, 0, FitOutcome::analytic};
 }
 
-double GaussNewtonSolver::coarse_loss(const LobeFrame& frame, const Eigen::Matrix3d& start,
-                                      FitWorkspace& workspace) const {
-  ModelValue value;
-  evaluate_model(frame, start, coarse_.cosines, workspace.quantiles,
-                 coarse_.options.direction_stride, workspace.quantiles.spread(), workspace.model,
-                 value);
-  return value.loss;
-}
+// One request under way.
+class GaussNewtonSolver::Fit {
+ public:
+  Fit(const GaussNewtonSolver& solver, const FitRequest& request, FitWorkspace& workspace,
+      std::vector<FitStep>* trace)
+      : solver_(solver),
+        request_(request),
+        workspace_(workspace),
+        trace_(trace),
+        frame_(request.lobe),
+        free_(free_entries(request.lobe)),
+        ladder_(solver.ladder_for(frame_)) {}
 
-Descent GaussNewtonSolver::best_coarse_descent(const LobeFrame& frame,
-                                               const std::vector<Eigen::Matrix3d>& starts,
-                                               DescentOptions options, FitWorkspace& workspace,
-                                               FitResult& result,
-                                               std::vector<FitStep>* trace) const {
-  const FreeEntries free = free_entries(frame.lobe);
-  std::vector<double> losses;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Eigen::Matrix3d& start : starts) {
-    losses.push_back(usable(start) ? coarse_loss(frame, start, workspace)
-                                   : std::numeric_limits<double>::infinity());
-    least = std::min(least, losses.back());
+  FitResult run() {
+    see_target(ladder_.light_lattice);
+    if ((request_.starts.empty() || !request_.incumbent) && first_order_is_exact(frame_)) {
+      FitResult result = solver_.analytic_result(frame_, workspace_);
+      result.start_abandoned = !request_.starts.empty();
+      return result;
+    }
+    return request_.incumbent ? improve(*request_.incumbent) : fit_anew();
   }
-  Descent best;
-  best.loss = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (!(std::isfinite(losses[i]) && losses[i] <= (1 + settings_.start_margin) * least))
-      continue;
-    options.phase = static_cast<int>(i);
-    const Descent descent = minimise(frame, starts[i], free, coarse_.cosines, workspace.quantiles,
-                                     options, workspace.model, trace);
-    result.steps += descent.steps;
-    if (descent.loss < best.loss)
-      best = descent;
-  }
-  return best;
-}
 
-std::vector<Eigen::Matrix3d> GaussNewtonSolver::promising(
-    const LobeFrame& frame, const std::vector<Eigen::Matrix3d>& starts, double loss_to_beat,
-    FitWorkspace& workspace) const {
-  std::vector<Eigen::Matrix3d> kept;
-  double best = promising_share * loss_to_beat;
-  for (const Eigen::Matrix3d& start : starts) {
-    if (!usable(start))
-      continue;
-    const double loss = coarse_loss(frame, start, workspace);
-    if (loss < best) {
-      best = loss;
-      kept.assign(1, start);
+ private:
+  using Kind = FitPhase::Kind;
+
+  FitResult fit_anew() {
+    Descent best = best_coarse_descent(given_starts(), Kind::given_start);
+    const Descent own = best_coarse_descent(own_starts(), Kind::own_start);
+    if (!(best.loss <= (1 + clearly_worse) * own.loss)) {
+      best = own;
+      result_.start_abandoned = !request_.starts.empty();
+    }
+    if (!std::isfinite(best.loss))
+      return no_result(result_.steps);
+    return climbed(best);
+  }
+
+  // From the neighbours' solutions, where they promise more than what there is.
+  FitResult improve(const FitResult& incumbent) {
+    result_ = incumbent;
+    // The incumbent settles on the coarse samples before it is compared on them.
+    const Descent settled =
+        minimise(frame_, admissible(frame_.from_matrix(incumbent.matrix), free_), free_,
+                 ladder_.coarse.cosines, workspace_.quantiles, options_of(ladder_.coarse, {}),
+                 workspace_.model, nullptr);
+    result_.steps = settled.steps;
+    const bool given = !request_.starts.empty();
+    const Descent best =
+        best_coarse_descent(promising(given ? given_starts() : own_starts(), settled.loss),
+                            given ? Kind::given_start : Kind::own_start);
+    if (!(best.loss < (1 - worthwhile_gain) * settled.loss))
+      return result_;
+    FitResult improved = climbed(best);
+    if (improved.loss < incumbent.loss)
+      return improved;
+    result_.steps = improved.steps;
+    return result_;
+  }
+
+  void see_target(const TargetLattice& lattice) {
+    solver_.see_target(frame_, request_.seed, lattice, workspace_);
+  }
+
+  DescentOptions options_of(const Level& level, FitPhase phase) const {
+    DescentOptions options = level.options;
+    options.begin = begin_;
+    options.progress = request_.progress;
+    options.phase = phase;
+    return options;
+  }
+
+  std::vector<Eigen::Matrix3d> given_starts() const {
+    std::vector<Eigen::Matrix3d> starts;
+    for (const Eigen::Matrix3d& matrix : request_.starts)
+      starts.push_back(repaired(frame_, matrix));
+    return starts;
+  }
+  std::vector<Eigen::Matrix3d> own_starts() const {
+    return solver_.own_starts(frame_, request_.seed, workspace_);
+  }
+
+  double coarse_loss(const Eigen::Matrix3d& start) {
+    ModelValue value;
+    evaluate_model(frame_, start, ladder_.coarse.cosines, workspace_.quantiles,
+                   ladder_.coarse.options.direction_stride, workspace_.quantiles.spread(),
+                   workspace_.model, value);
+    return value.loss;
+  }
+
+  // From every start whose loss is not hopeless beside the least.
+  Descent best_coarse_descent(const std::vector<Eigen::Matrix3d>& starts, Kind kind) {
+    std::vector<double> losses;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Eigen::Matrix3d& start : starts) {
+      losses.push_back(usable(start) ? coarse_loss(start)
+                                     : std::numeric_limits<double>::infinity());
+      least = std::min(least, losses.back());
+    }
+    const double most = has_several_minima(frame_) ? std::numeric_limits<double>::max()
+                                                   : (1 + solver_.settings_.start_margin) * least;
+    Descent best;
+    best.loss = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      if (!(std::isfinite(losses[i]) && losses[i] <= most))
+        continue;
+      const Descent descent = minimise(
+          frame_, starts[i], free_, ladder_.coarse.cosines, workspace_.quantiles,
+          options_of(ladder_.coarse, {kind, static_cast<int>(i)}), workspace_.model, trace_);
+      result_.steps += descent.steps;
+      if (descent.loss < best.loss)
+        best = descent;
+    }
+    return best;
+  }
+
+  // The start of least loss, where that is not hopeless beside `loss_to_beat`; none otherwise.
+  std::vector<Eigen::Matrix3d> promising(const std::vector<Eigen::Matrix3d>& starts,
+                                         double loss_to_beat) {
+    std::vector<Eigen::Matrix3d> kept;
+    double best = promising_share * loss_to_beat;
+    for (const Eigen::Matrix3d& start : starts) {
+      if (!usable(start))
+        continue;
+      const double loss = coarse_loss(start);
+      if (loss < best) {
+        best = loss;
+        kept.assign(1, start);
+      }
+    }
+    return kept;
+  }
+
+  FitResult climbed(const Descent& coarse) {
+    const Descent descent = climb(coarse);
+    FitResult result = result_;
+    result.matrix = frame_.to_matrix(descent.frame_matrix);
+    result.loss = descent.loss;
+    result.outcome = descent.converged ? FitOutcome::converged : FitOutcome::step_limit;
+    return result;
+  }
+
+  // From the coarse solution up the levels until the samples suffice for what is left of the loss.
+  // A lobe that needs the last one passes through the one before, where steps are cheap, and gets a
+  // target of its own there.
+  Descent climb(Descent descent) {
+    const std::vector<Level>& levels = ladder_.levels;
+    const std::size_t last = levels.size() - 1;
+    std::size_t level = level_needed(descent);
+    if (level == last && last > 0)
+      --level;
+    if (&ladder_ == &solver_.paired_)
+      see_target(ladder_.lattice);
+    for (int phase = 0;; ++level, ++phase) {
+      DescentOptions options = options_of(levels[level], {Kind::fine, phase});
+      if (level < last && level_needed(descent) > level)
+        options.tolerance = std::max(options.tolerance, passing_tolerance);
+      descent = minimise(frame_, descent.frame_matrix, free_, levels[level].cosines,
+                         workspace_.quantiles, options, workspace_.model, trace_);
+      result_.steps += descent.steps;
+      if (level == last || level_needed(descent) <= level)
+        return descent;
+      if (level + 1 == last)
+        see_target(ladder_.lattice);
     }
   }
-  return kept;
-}
-
-// From the coarse solution up the levels until the samples suffice for what is left of the loss. A
-// lobe that needs the last one passes through the one before, where steps are cheap, and gets a
-// target of its own there.
-Descent GaussNewtonSolver::climb(const LobeFrame& frame, const FitRequest& request, Descent descent,
-                                 DescentOptions watched, FitWorkspace& workspace, FitResult& result,
-                                 std::vector<FitStep>* trace) const {
-  const FreeEntries free = free_entries(frame.lobe);
-  const std::size_t last = levels_.size() - 1;
-  std::size_t level = level_for(descent.loss / workspace.quantiles.spread());
-  if (level == last && last > 0)
-    --level;
-  for (;; ++level) {
-    DescentOptions options = levels_[level].options;
-    options.begin = watched.begin;
-    options.progress = watched.progress;
-    options.phase = watched.phase++;
-    const bool passing =
-        level < last && level_for(descent.loss / workspace.quantiles.spread()) > level;
-    if (passing)
-      options.tolerance = std::max(options.tolerance, passing_tolerance);
-    descent = minimise(frame, descent.frame_matrix, free, levels_[level].cosines,
-                       workspace.quantiles, options, workspace.model, trace);
-    result.steps += descent.steps;
-    if (level == last || level_for(descent.loss / workspace.quantiles.spread()) <= level)
-      return descent;
-    if (level + 1 == last)
-      see_target(frame, request.seed, lattice_, workspace);
+  std::size_t level_needed(const Descent& descent) const {
+    return level_for(ladder_.levels, descent.loss / workspace_.quantiles.spread());
   }
-}
+
+  const GaussNewtonSolver& solver_;
+  const FitRequest& request_;
+  FitWorkspace& workspace_;
+  std::vector<FitStep>* trace_;
+  LobeFrame frame_;
+  FreeEntries free_;
+  const Ladder& ladder_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  FitResult result_;
+};
 
 FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                                  std::vector<FitStep>* trace) const {
-  const LobeFrame frame(request.lobe);
-  const FreeEntries free = free_entries(request.lobe);
-  DescentOptions options = coarse_.options;
-  options.begin = std::chrono::steady_clock::now();
-  options.progress = request.progress;
-  see_target(frame, request.seed, light_lattice_, workspace);
-  if (request.starts.empty() && first_order_is_exact(frame))
-    return analytic_result(frame, workspace);
-
-  std::vector<Eigen::Matrix3d> starts;
-  for (const Eigen::Matrix3d& matrix : request.starts)
-    starts.push_back(admissible(frame.from_matrix(matrix), free));
-  if (starts.empty())
-    starts = own_starts(frame, request.seed, workspace);
-
-  FitResult result;
-  double loss_to_beat = std::numeric_limits<double>::infinity();
-  if (request.incumbent) {
-    result = *request.incumbent;
-    // The incumbent settles on the coarse samples before it is compared on them.
-    const Descent settled =
-        minimise(frame, admissible(frame.from_matrix(result.matrix), free), free, coarse_.cosines,
-                 workspace.quantiles, options, workspace.model, nullptr);
-    result.steps = settled.steps;
-    loss_to_beat = settled.loss;
-    starts = promising(frame, starts, loss_to_beat, workspace);
-  }
-  const Descent best = best_coarse_descent(frame, starts, options, workspace, result, trace);
-  if (!(best.loss < (1 - worthwhile_gain) * loss_to_beat)) {
-    if (!request.incumbent)
-      result = no_result(result.steps);
-    return result;
-  }
-  options.phase = static_cast<int>(starts.size());
-  const Descent descent = climb(frame, request, best, options, workspace, result, trace);
-  if (request.incumbent && !(descent.loss < result.loss))
-    return result;
-  result.matrix = frame.to_matrix(descent.frame_matrix);
-  result.loss = descent.loss;
-  result.outcome = descent.converged ? FitOutcome::converged : FitOutcome::step_limit;
-  return result;
+  return Fit(*this, request, workspace, trace).run();
 }
 
 }  // namespace ltc

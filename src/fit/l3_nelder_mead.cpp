@@ -71,8 +71,8 @@ struct Objective {
     if (trace)
       trace->push_back(
           {value, 0, 0,
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), better,
-           0});
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+           better});
     return value;
   }
 };

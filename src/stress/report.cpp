@@ -142,6 +142,22 @@ std::string stress_json(const std::vector<StressReport>& reports) {
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string stress_csv(const std::vector<StressReport>& reports) {
+  std::string text =
+      "solver,alpha,lambda,theta_degrees,phi_degrees,start,ratio,loss,spread,determinant,"
+      "abandoned,steps,milliseconds\n";
+  for (const StressReport& report : reports)
+    for (const StressFit& fit : report.run.fits) {
+      const StressLobe& lobe = report.task.lobes[fit.lobe];
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", report.name, lobe.alpha,
+                          lobe.lambda, lobe.theta_degrees, lobe.phi_degrees,
+                          stress_starts()[fit.start].name, fit.ratio, fit.held_out_loss,
+                          report.run.spread[fit.lobe], fit.matrix.determinant(),
+                          fit.start_abandoned ? 1 : 0, fit.steps, 1e3 * fit.seconds);
+    }
+  return text;
+}
+
 picture::TiledMap success_map(const StressReport& report) {
   picture::TiledMap map = map_of(report,
                                  {picture::Scale::linear(0, 1), &picture::ColorMap::viridis(),

@@ -25,6 +25,9 @@ struct StressReport {
 // One object: the conditions, and `solvers`, one object a report. Units are in the names.
 std::string stress_json(const std::vector<StressReport>& reports);
 
+// One line for each fit.
+std::string stress_csv(const std::vector<StressReport>& reports);
+
 // Two tiles for each theta, from the program's own starts and from bad ones; in a tile alpha
 // downwards and lambda to the right. Over phi and the starts, the share of fits that succeed, and
 // the largest ratio of the finite ones.

@@ -10,7 +10,7 @@
 
 #include "core/parallel.h"
 #include "fit/fit_table.h"
-#include "validate/held_out.h"
+#include "stress/graded_judge.h"
 
 namespace ltc {
 namespace {
@@ -24,7 +24,7 @@ double seconds_since(Clock::time_point begin) {
 // What a thread keeps.
 struct Worker {
   FitWorkspacePointer workspace = make_fit_workspace();
-  HeldOutJudge judge;
+  GradedJudge judge;
 
   explicit Worker(const CompareSettings& settings)
       : judge(settings.samples, settings.directions, settings.seed) {}
@@ -83,7 +83,7 @@ class Runner {
   }
 
   // Of the last one: fits that came to the same matrix are judged once.
-  static void judge_last(std::vector<StressFit>& fits, HeldOutJudge& judge) {
+  static void judge_last(std::vector<StressFit>& fits, GradedJudge& judge) {
     StressFit& last = fits.back();
     for (std::size_t i = 0; i + 1 < fits.size(); ++i)
       if (fits[i].matrix == last.matrix) {
