@@ -91,7 +91,8 @@ std::string status_text(const FitReport& report) {
 
 std::string start_text(const FitReport& report) {
   if (!report.start.empty())
-    return report.start;
+    return report.start +
+           (report.fit.start_abandoned ? ": abandoned, the solver's own led further" : "");
   if (report.settings.solver == SolverKind::sgd)
     return std::string(start_name(report.settings.sgd.start));
   std::string text;

@@ -72,6 +72,9 @@ bool has_several_minima(const LobeFrame& frame) {
 // A given start is abandoned where its coarse descent ends this share above the own one's.
 constexpr double clearly_worse = 2e-3;
 
+// What the widths of lobes may differ by for want of samples, as a share of the spread.
+constexpr double width_noise = 0.1;
+
 bool usable(const Eigen::Matrix3d& start) {
   return start.allFinite() && start.determinant() > 0;
 }
@@ -217,7 +220,7 @@ class GaussNewtonSolver::Fit {
   FitResult fit_anew() {
     Descent best = best_coarse_descent(given_starts(), Kind::given_start);
     const Descent own = best_coarse_descent(own_starts(), Kind::own_start);
-    if (!(best.loss <= (1 + clearly_worse) * own.loss)) {
+    if (!std::isfinite(best.loss) || honest_loss(best) > (1 + clearly_worse) * honest_loss(own)) {
       best = own;
       result_.start_abandoned = !request_.starts.empty();
     }
@@ -276,6 +279,31 @@ class GaussNewtonSolver::Fit {
                    ladder_.coarse.options.direction_stride, workspace_.quantiles.spread(),
                    workspace_.model, value);
     return value.loss;
+  }
+
+  // The coarse loss, or what the widths alone make it at least. The model compares means of bins,
+  // so that it takes a lobe far narrower than a bin for a good one wherever its mean is right; but
+  // for every centre c the distance of X and Y is at least |E|X - c| - E|Y - c||.
+  double honest_loss(const Descent& descent) {
+    if (!std::isfinite(descent.loss))
+      return descent.loss;
+    coarse_loss(descent.frame_matrix);  // transforms the samples
+    const ModelWorkspace& model = workspace_.model;
+    const std::size_t stride = ladder_.coarse.options.direction_stride;
+    const std::size_t count = ladder_.coarse.cosines.size();
+    double difference = 0;
+    std::size_t directions = 0;
+    for (std::size_t k = 0; k < workspace_.quantiles.direction_count(); k += stride, ++directions) {
+      const kernels::ProjectionMap& map = workspace_.quantiles.map(k);
+      double deviation = 0;
+      for (std::size_t i = 0; i < count; ++i)
+        deviation += std::abs(map.direction_x * model.gx[i] + map.direction_y * model.gy[i] +
+                              map.direction_z * model.gz[i] - map.centre);
+      difference += std::abs(deviation / static_cast<double>(count) - 1 / map.inverse_scale);
+    }
+    const double least =
+        difference / static_cast<double>(directions) - width_noise * workspace_.quantiles.spread();
+    return std::max(descent.loss, least);
   }
 
   // From every start whose loss is not hopeless beside the least.
