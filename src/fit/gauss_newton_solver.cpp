@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fit/starting_points.h"
 #include "fit/workspace.h"
@@ -45,32 +46,41 @@ double first_order_error(const LobeFrame& frame) {
   return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) / (cosine * cosine);
 }
 
-// Lobes rougher than the first bound are told apart well by any samples. Where P0 is off by more
-// than the second, the view grazes and cosine samples and target have no noise in common.
-constexpr double roughest_paired = 0.14, furthest_paired = 1e3;
+// Lobes like those of a default table, whose alpha is 1e-4 or at least 1/7 and whose views end at
+// 89.991 degrees, are told apart well by any samples and have one minimum that matters. The others
+// are beyond `usual`: their noise, or their several minima, need more work.
+constexpr double least_usual_alpha = 0.14, least_usual_lambda = 0.14, sharp_alpha = 1.0001e-4;
+// A sharp lobe is bent where P0 is off by more than this.
+constexpr double bent = 1e3;
+constexpr double grazing_cosine = 1.4e-4;  // of 89.992 degrees
 
 bool first_order_is_exact(const LobeFrame& frame) {
   const double cosine = frame.omega_v.z();
   return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < exact_first_order * cosine * cosine;
 }
 
-bool narrow(const LobeFrame& frame) {
-  return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < roughest_paired &&
-         first_order_error(frame) < furthest_paired;
+bool usual(const LobeFrame& frame) {
+  const auto [thin, wide] = std::minmax(frame.lobe.alpha_x, frame.lobe.alpha_y);
+  if (frame.omega_v.z() < grazing_cosine)
+    return false;
+  if (wide < least_usual_alpha)
+    return wide <= sharp_alpha && first_order_error(frame) >= bent;
+  return thin >= least_usual_lambda * wide || thin <= sharp_alpha;
 }
 
-// cos 89.992 degrees: beyond the last node of a default table, the loss has several minima.
-constexpr double grazing_cosine = 1.4e-4;
+// Of the graded sets.
+constexpr int least_graded_samples = 512;
 
-// How many starts such lobes, and those on the paired ladder, get at least.
-constexpr int starts_at_extremes = 3;
+// How many starts lobes that are not usual get at least.
+constexpr int starts_at_extremes = 5;
 
-bool has_several_minima(const LobeFrame& frame) {
-  return narrow(frame) || frame.omega_v.z() < grazing_cosine;
-}
-
-// A given start is abandoned where its coarse descent ends this share above the own one's.
+// A given start is abandoned where it ends this share above the solver's own.
 constexpr double clearly_worse = 2e-3;
+
+// Coarse solutions up to this many times the least may overtake it on fine samples; at most so many
+// are tried.
+constexpr double rival_share = 1.3;
+constexpr std::size_t most_rivals = 3;
 
 // What the widths of lobes may differ by for want of samples, as a share of the spread.
 constexpr double width_noise = 0.1;
@@ -97,9 +107,9 @@ std::size_t level_for(const Levels& levels, double relative_loss) {
 
 }  // namespace
 
-GaussNewtonSolver::Level GaussNewtonSolver::make_level(int samples, int steps, double tolerance,
-                                                       double shift) {
-  Level level{make_cosine_set(static_cast<std::size_t>(samples), shift), {}};
+GaussNewtonSolver::Level GaussNewtonSolver::make_level(CosineSet cosines, int steps,
+                                                       double tolerance) {
+  Level level{std::move(cosines), {}};
   level.options.steps = steps;
   level.options.tolerance = tolerance;
   return level;
@@ -114,29 +124,36 @@ GaussNewtonSolver::Ladder GaussNewtonSolver::make_ladder(const GaussNewtonSettin
                                 0.3)
           : ladder.lattice;
   ladder.coarse =
-      make_level(settings.coarse_samples, settings.coarse_steps, settings.coarse_tolerance, 0.1);
+      make_level(make_cosine_set(static_cast<std::size_t>(settings.coarse_samples), 0.1),
+                 settings.coarse_steps, settings.coarse_tolerance);
   for (const int divisor : {4, 2, 1}) {
     const int samples = settings.samples / divisor;
     if (divisor > 1 && (!settings.adaptive || samples < settings.coarse_samples))
       continue;
-    ladder.levels.push_back(make_level(samples, settings.steps, settings.tolerance, 0.0));
+    ladder.levels.push_back(make_level(make_cosine_set(static_cast<std::size_t>(samples)),
+                                       settings.steps, settings.tolerance));
   }
   return ladder;
 }
 
-// For narrow lobes. Each level draws the target from the very lattice of its cosine set: to first
-// order P0 sends a cosine sample to where the visible normal of the same lattice point reflects, so
-// that the noise of the heavy tails, which is that of the sets' outermost samples, is the same on
-// both sides and cancels. With sets of their own, noise is all that is left of the loss.
-GaussNewtonSolver::Ladder GaussNewtonSolver::make_paired_ladder(
+// For what is not usual. The tails of sharp lobes are so heavy that with equally weighted samples
+// the outermost one alone makes up per cents of the loss: the fit follows its noise. Graded sets
+// have a thousand times lighter ones out there. Besides, each level draws the target from the very
+// lattice of its cosine set: to first order P0 sends a cosine sample to where the visible normal of
+// the same lattice point reflects, so that what noise is left is the same on both sides.
+GaussNewtonSolver::Ladder GaussNewtonSolver::make_graded_ladder(
     const GaussNewtonSettings& settings) {
-  constexpr int least_coarse_samples = 1024;
-  const int coarse = std::max(settings.coarse_samples, least_coarse_samples);
+  const auto coarse =
+      static_cast<std::size_t>(std::max(settings.coarse_samples, least_graded_samples));
+  const auto fine =
+      static_cast<std::size_t>(std::clamp(settings.samples, least_graded_samples, 4096));
   Ladder ladder;
-  ladder.light_lattice = make_target_lattice(static_cast<std::size_t>(coarse));
-  ladder.lattice = make_target_lattice(static_cast<std::size_t>(settings.samples));
-  ladder.coarse = make_level(coarse, settings.coarse_steps, settings.coarse_tolerance, 0.0);
-  ladder.levels.push_back(make_level(settings.samples, settings.steps, settings.tolerance, 0.0));
+  ladder.graded_light_lattice = make_graded_lattice(coarse);
+  ladder.graded_lattice = make_graded_lattice(fine);
+  ladder.coarse =
+      make_level(make_graded_cosine_set(coarse), settings.coarse_steps, settings.coarse_tolerance);
+  ladder.levels.push_back(
+      make_level(make_graded_cosine_set(fine), settings.steps, settings.tolerance));
   return ladder;
 }
 
@@ -146,8 +163,8 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
       directions_(in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)))),
       bins_(bins_for(settings.samples)),
       usual_(make_ladder(settings)),
-      paired_(make_paired_ladder(settings)) {
-  for (Ladder* ladder : {&usual_, &paired_}) {
+      graded_(make_graded_ladder(settings)) {
+  for (Ladder* ladder : {&usual_, &graded_}) {
     ladder->coarse.options.direction_stride =
         static_cast<std::size_t>(std::max(1, settings.directions / settings.coarse_directions));
     for (Level& level : ladder->levels)
@@ -156,12 +173,18 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
 }
 
 const GaussNewtonSolver::Ladder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
-  return target_kind_ == TargetKind::weighted && narrow(frame) ? paired_ : usual_;
+  return target_kind_ == TargetKind::weighted && !usual(frame) ? graded_ : usual_;
 }
 
-void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed,
-                                   const TargetLattice& lattice, FitWorkspace& workspace) const {
-  if (target_kind_ == TargetKind::weighted)
+void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed, Look look,
+                                   FitWorkspace& workspace) const {
+  const Ladder& ladder = ladder_for(frame);
+  const TargetLattice& lattice = look == Look::whole ? ladder.lattice : ladder.light_lattice;
+  if (&ladder == &graded_)
+    sample_graded_target(frame,
+                         look == Look::whole ? ladder.graded_lattice : ladder.graded_light_lattice,
+                         workspace.target);
+  else if (target_kind_ == TargetKind::weighted)
     sample_weighted_target(frame, lattice, workspace.target);
   else
     sample_rejection_target(frame, lattice.size(), seed, workspace.target);
@@ -173,7 +196,7 @@ std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& fram
                                                            std::uint64_t seed,
                                                            const FitWorkspace& workspace) const {
   const int count =
-      has_several_minima(frame) ? std::max(settings_.starts, starts_at_extremes) : settings_.starts;
+      usual(frame) ? settings_.starts : std::max(settings_.starts, starts_at_extremes);
   std::vector<Eigen::Matrix3d> starts = {moment_start(frame, workspace.target),
                                          first_order_start(frame), identity_start(frame)};
   for (int i = 3; i < count; ++i)
@@ -205,7 +228,7 @@ class GaussNewtonSolver::Fit {
         ladder_(solver.ladder_for(frame_)) {}
 
   FitResult run() {
-    see_target(ladder_.light_lattice);
+    see_target(Look::light);
     if ((request_.starts.empty() || !request_.incumbent) && first_order_is_exact(frame_)) {
       FitResult result = solver_.analytic_result(frame_, workspace_);
       result.start_abandoned = !request_.starts.empty();
@@ -217,16 +240,62 @@ class GaussNewtonSolver::Fit {
  private:
   using Kind = FitPhase::Kind;
 
+  // A coarse solution that the fine phase may go on from.
+  struct Candidate {
+    Descent descent;
+    bool given = false;
+    double loss = 0;  // honest
+  };
+
   FitResult fit_anew() {
-    Descent best = best_coarse_descent(given_starts(), Kind::given_start);
-    const Descent own = best_coarse_descent(own_starts(), Kind::own_start);
-    if (!std::isfinite(best.loss) || honest_loss(best) > (1 + clearly_worse) * honest_loss(own)) {
-      best = own;
-      result_.start_abandoned = !request_.starts.empty();
+    if (request_.starts.empty() && usual(frame_)) {
+      const Descent best = best_of(coarse_descents(own_starts(), Kind::own_start));
+      return std::isfinite(best.loss) ? climbed(best) : no_result(result_.steps);
     }
-    if (!std::isfinite(best.loss))
-      return no_result(result_.steps);
-    return climbed(best);
+    std::vector<Candidate> candidates;
+    for (const Descent& descent : coarse_descents(widened(given_starts()), Kind::given_start))
+      candidates.push_back({descent, true, honest_loss(descent)});
+    for (const Descent& descent : coarse_descents(own_starts(), Kind::own_start))
+      candidates.push_back({descent, false, honest_loss(descent)});
+    keep_rivals(candidates);
+    return best_climbed(candidates);
+  }
+
+  // The best few, which the coarse samples cannot tell apart for certain.
+  static void keep_rivals(std::vector<Candidate>& candidates) {
+    std::erase_if(candidates, [](const Candidate& c) { return !std::isfinite(c.loss); });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.loss < b.loss; });
+    std::erase_if(candidates, [least = candidates.empty() ? 0 : candidates.front().loss](
+                                  const Candidate& c) { return c.loss > rival_share * least; });
+    if (candidates.size() > most_rivals)
+      candidates.resize(most_rivals);
+  }
+
+  FitResult best_climbed(const std::vector<Candidate>& candidates) {
+    FitResult best = no_result(result_.steps);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Candidate& candidate : candidates) {
+      see_target(Look::light);
+      FitResult result = climbed(candidate.descent);
+      result.start_abandoned = !request_.starts.empty() && !candidate.given;
+      const double loss = fine_loss(result) * (candidate.given ? 1 - clearly_worse : 1);
+      if (loss < least) {
+        least = loss;
+        best = result;
+      }
+    }
+    best.steps = result_.steps;
+    return best;
+  }
+
+  // On the last level, whichever the climb ended on.
+  double fine_loss(const FitResult& result) {
+    see_target(Look::whole);
+    ModelValue value;
+    evaluate_model(frame_, frame_.from_matrix(result.matrix), ladder_.levels.back().cosines,
+                   workspace_.quantiles, 1, workspace_.quantiles.spread(), workspace_.model, value);
+    return value.loss;
   }
 
   // From the neighbours' solutions, where they promise more than what there is.
@@ -240,8 +309,8 @@ class GaussNewtonSolver::Fit {
     result_.steps = settled.steps;
     const bool given = !request_.starts.empty();
     const Descent best =
-        best_coarse_descent(promising(given ? given_starts() : own_starts(), settled.loss),
-                            given ? Kind::given_start : Kind::own_start);
+        best_of(coarse_descents(promising(given ? given_starts() : own_starts(), settled.loss),
+                                given ? Kind::given_start : Kind::own_start));
     if (!(best.loss < (1 - worthwhile_gain) * settled.loss))
       return result_;
     FitResult improved = climbed(best);
@@ -251,9 +320,7 @@ class GaussNewtonSolver::Fit {
     return result_;
   }
 
-  void see_target(const TargetLattice& lattice) {
-    solver_.see_target(frame_, request_.seed, lattice, workspace_);
-  }
+  void see_target(Look look) { solver_.see_target(frame_, request_.seed, look, workspace_); }
 
   DescentOptions options_of(const Level& level, FitPhase phase) const {
     DescentOptions options = level.options;
@@ -290,16 +357,22 @@ class GaussNewtonSolver::Fit {
     coarse_loss(descent.frame_matrix);  // transforms the samples
     const ModelWorkspace& model = workspace_.model;
     const std::size_t stride = ladder_.coarse.options.direction_stride;
-    const std::size_t count = ladder_.coarse.cosines.size();
+    const CosineSet& cosines = ladder_.coarse.cosines;
+    const std::size_t count = cosines.size();
+    const auto total = static_cast<double>(cosines.total());
+    const auto multiplicity = [&](std::size_t i) {
+      return cosines.multiplicity.empty() ? 1.0 : cosines.multiplicity[i];
+    };
     double difference = 0;
     std::size_t directions = 0;
     for (std::size_t k = 0; k < workspace_.quantiles.direction_count(); k += stride, ++directions) {
       const kernels::ProjectionMap& map = workspace_.quantiles.map(k);
       double deviation = 0;
       for (std::size_t i = 0; i < count; ++i)
-        deviation += std::abs(map.direction_x * model.gx[i] + map.direction_y * model.gy[i] +
+        deviation += multiplicity(i) *
+                     std::abs(map.direction_x * model.gx[i] + map.direction_y * model.gy[i] +
                               map.direction_z * model.gz[i] - map.centre);
-      difference += std::abs(deviation / static_cast<double>(count) - 1 / map.inverse_scale);
+      difference += std::abs(deviation / total - 1 / map.inverse_scale);
     }
     const double least =
         difference / static_cast<double>(directions) - width_noise * workspace_.quantiles.spread();
@@ -307,7 +380,7 @@ class GaussNewtonSolver::Fit {
   }
 
   // From every start whose loss is not hopeless beside the least.
-  Descent best_coarse_descent(const std::vector<Eigen::Matrix3d>& starts, Kind kind) {
+  std::vector<Descent> coarse_descents(const std::vector<Eigen::Matrix3d>& starts, Kind kind) {
     std::vector<double> losses;
     double least = std::numeric_limits<double>::infinity();
     for (const Eigen::Matrix3d& start : starts) {
@@ -315,21 +388,44 @@ class GaussNewtonSolver::Fit {
                                      : std::numeric_limits<double>::infinity());
       least = std::min(least, losses.back());
     }
-    const double most = has_several_minima(frame_) ? std::numeric_limits<double>::max()
-                                                   : (1 + solver_.settings_.start_margin) * least;
-    Descent best;
-    best.loss = std::numeric_limits<double>::infinity();
+    const double most = !usual(frame_) ? std::numeric_limits<double>::max()
+                                       : (1 + solver_.settings_.start_margin) * least;
+    std::vector<Descent> descents;
     for (std::size_t i = 0; i < starts.size(); ++i) {
       if (!(std::isfinite(losses[i]) && losses[i] <= most))
         continue;
-      const Descent descent = minimise(
+      descents.push_back(minimise(
           frame_, starts[i], free_, ladder_.coarse.cosines, workspace_.quantiles,
-          options_of(ladder_.coarse, {kind, static_cast<int>(i)}), workspace_.model, trace_);
-      result_.steps += descent.steps;
+          options_of(ladder_.coarse, {kind, static_cast<int>(i)}), workspace_.model, trace_));
+      result_.steps += descents.back().steps;
+    }
+    return descents;
+  }
+
+  // Of infinite loss where there is none.
+  static Descent best_of(const std::vector<Descent>& descents) {
+    Descent best;
+    best.loss = std::numeric_limits<double>::infinity();
+    for (const Descent& descent : descents)
       if (descent.loss < best.loss)
         best = descent;
-    }
     return best;
+  }
+
+  // A start that would fall into a single bin, where the model sees only its mean, starts a tenth
+  // as wide as the lobe instead.
+  std::vector<Eigen::Matrix3d> widened(std::vector<Eigen::Matrix3d> starts) const {
+    constexpr double narrowest = 0.1;
+    const double lobe_width = width(moment_start(frame_, workspace_.target));
+    for (Eigen::Matrix3d& start : starts)
+      if (const double share = width(start) / lobe_width; share < narrowest && share > 0)
+        start.leftCols<2>() *= narrowest / share;
+    return starts;
+  }
+  // Of the wider of its two columns.
+  double width(const Eigen::Matrix3d& p) const {
+    return std::max(frame_.lobe.alpha_x * p.col(0).norm(), frame_.lobe.alpha_y * p.col(1).norm()) /
+           p.col(2).norm();
   }
 
   // The start of least loss, where that is not hopeless beside `loss_to_beat`; none otherwise.
@@ -367,8 +463,8 @@ class GaussNewtonSolver::Fit {
     std::size_t level = level_needed(descent);
     if (level == last && last > 0)
       --level;
-    if (&ladder_ == &solver_.paired_)
-      see_target(ladder_.lattice);
+    if (&ladder_ == &solver_.graded_)
+      see_target(Look::whole);
     for (int phase = 0;; ++level, ++phase) {
       DescentOptions options = options_of(levels[level], {Kind::fine, phase});
       if (level < last && level_needed(descent) > level)
@@ -379,7 +475,7 @@ class GaussNewtonSolver::Fit {
       if (level == last || level_needed(descent) <= level)
         return descent;
       if (level + 1 == last)
-        see_target(ladder_.lattice);
+        see_target(Look::whole);
     }
   }
   std::size_t level_needed(const Descent& descent) const {

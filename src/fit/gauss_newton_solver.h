@@ -34,16 +34,18 @@ class GaussNewtonSolver final : public Solver {
   struct Ladder {
     Level coarse;
     std::vector<Level> levels;  // ascending
-    // Of the last level, and of all below.
+    // Of the last level, and of all below: equally weighted, or graded.
     TargetLattice lattice, light_lattice;
+    GradedLattice graded_lattice, graded_light_lattice;
   };
-  static Level make_level(int samples, int steps, double tolerance, double shift);
+  static Level make_level(CosineSet cosines, int steps, double tolerance);
   static Ladder make_ladder(const GaussNewtonSettings& settings);
-  static Ladder make_paired_ladder(const GaussNewtonSettings& settings);
+  static Ladder make_graded_ladder(const GaussNewtonSettings& settings);
   const Ladder& ladder_for(const LobeFrame& frame) const;
 
-  // Draws the target from one of the lattices and looks at it along all directions.
-  void see_target(const LobeFrame& frame, std::uint64_t seed, const TargetLattice& lattice,
+  // Draws the target from one of the lobe's lattices and looks at it along all directions.
+  enum class Look { light, whole };
+  void see_target(const LobeFrame& frame, std::uint64_t seed, Look look,
                   FitWorkspace& workspace) const;
   // At least as many as the settings say.
   std::vector<Eigen::Matrix3d> own_starts(const LobeFrame& frame, std::uint64_t seed,
@@ -54,7 +56,7 @@ class GaussNewtonSolver final : public Solver {
   TargetKind target_kind_;
   std::vector<Eigen::Vector3f> directions_;
   std::size_t bins_;
-  Ladder usual_, paired_;
+  Ladder usual_, graded_;
 
   class Fit;
 };
