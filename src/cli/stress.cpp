@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t full_random_lobes = 300, quick_random_lobes = 12;
+constexpr std::size_t full_random_lobes = 100, quick_random_lobes = 12;
 constexpr std::size_t most_worst = 5;
 
 struct Arguments {
@@ -220,8 +220,9 @@ void stress(const Arguments& arguments) {
   if (map_folder)
     write_maps(map_folder->path(), reports);
   std::string text = fmt::format(
-      "Losses are held out: {} samples, {} directions. A fit fails above 1.05 times the least\n"
-      "loss that any start, or the default fit, reached at its lobe.\n",
+      "Losses are those of a judge in double precision, {} graded samples and {} directions, that\n"
+      "shares nothing with the fits. A fit fails above 1.05 times the least loss that any start,\n"
+      "or the default fit, reached at its lobe; what is below the judge's noise counts as equal.\n",
       reports.front().task.judge.samples, reports.front().task.judge.directions);
   for (const StressReport& report : reports)
     text += "\n" + report_text(report);
@@ -245,7 +246,7 @@ void add_what_options(CLI::App& app, Arguments& arguments) {
       ->option_text("NAME")
       ->group(group);
   app.add_option("--fits", arguments.fits,
-                 "about so many fits with each solver [34,000; 1,900 with the slow ones]")
+                 "about so many fits with each solver [22,525; 1,360 with the slow ones]")
       ->check(CLI::Range(1, 1 << 24))
       ->option_text("N")
       ->group(group);

@@ -72,15 +72,15 @@ bool usual(const LobeFrame& frame) {
 constexpr int least_graded_samples = 512;
 
 // How many starts lobes that are not usual get at least.
-constexpr int starts_at_extremes = 5;
+constexpr int starts_at_extremes = 8;
 
 // A given start is abandoned where it ends this share above the solver's own.
 constexpr double clearly_worse = 2e-3;
 
 // Coarse solutions up to this many times the least may overtake it on fine samples; at most so many
 // are tried.
-constexpr double rival_share = 1.3;
-constexpr std::size_t most_rivals = 3;
+constexpr double rival_share = 1.5;
+constexpr std::size_t most_rivals = 4;
 
 // What the widths of lobes may differ by for want of samples, as a share of the spread.
 constexpr double width_noise = 0.1;

@@ -30,7 +30,7 @@ namespace ltc {
 // sets are its own, and quantiles are compared exactly by sorting (keys are rounded to float).
 class GradedJudge {
  public:
-  explicit GradedJudge(std::size_t samples, std::size_t directions, std::uint64_t seed);
+  GradedJudge(std::size_t samples, std::size_t directions, std::uint64_t seed);
 
   // Sets the lobe that the others judge against; before either.
   void set_lobe(const GgxLobe& lobe);

@@ -49,13 +49,13 @@ GgxLobe StressLobe::lobe() const {
 StressAxes stress_axes(StressDensity density) {
   switch (density) {
     case StressDensity::coarse:
-      return {decades(2), decades(2), {0, 30, 60, 80, 89, 89.9, 89.999}, {45}};
+      return {decades(2), decades(2), {0, 45, 80, 89, 89.999}, {45}};
     case StressDensity::quick:
       return {decades(3), decades(3), {0, 80, 89.999}, {0, 45}};
     case StressDensity::full:
       break;
   }
-  return {decades(1), decades(1), {0, 30, 60, 80, 89, 89.9, 89.999}, {0, 1e-6, 45, 90 - 1e-6, 90}};
+  return {decades(1), decades(1), {0, 45, 80, 89, 89.999}, {0, 1e-6, 45, 90 - 1e-6, 90}};
 }
 
 std::vector<StressLobe> grid_lobes(const StressAxes& axes) {

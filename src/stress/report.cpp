@@ -43,7 +43,7 @@ Json json_of(const StressReport& report, std::size_t place) {
           {"phi_degrees", lobe.phi_degrees},
           {"start", stress_starts()[fit.start].name},
           {"ratio", fit.ratio},  // null where it is not finite
-          {"loss", fit.held_out_loss},
+          {"loss", fit.loss},
           {"spread", report.run.spread[fit.lobe]},
           {"determinant", fit.matrix.determinant()},
           {"command", report.commands.at(place)}};
@@ -119,7 +119,7 @@ picture::TiledMap map_of(const StressReport& report, picture::ColorScale colors,
                   report.task.lobes.size(), stress_starts().size(),
                   std::count_if(stress_starts().begin(), stress_starts().end(),
                                 [](const StressStartKind& kind) { return kind.own; })),
-      fmt::format("Held-out loss, {} samples and {} directions; cells gather all φ and starts",
+      fmt::format("Judged by {} graded samples and {} directions; cells gather all φ and starts",
                   report.task.judge.samples, report.task.judge.directions)};
   return map;
 }
@@ -136,7 +136,7 @@ std::string stress_json(const std::vector<StressReport>& reports) {
   Json all = {{"generator", generator()}, {"solvers", solvers}};
   if (!reports.empty()) {
     const CompareSettings& judge = reports.front().task.judge;
-    all["held_out"] = {
+    all["judge"] = {
         {"samples", judge.samples}, {"directions", judge.directions}, {"seed", judge.seed}};
   }
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -151,7 +151,7 @@ std::string stress_csv(const std::vector<StressReport>& reports) {
       const StressLobe& lobe = report.task.lobes[fit.lobe];
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", report.name, lobe.alpha,
                           lobe.lambda, lobe.theta_degrees, lobe.phi_degrees,
-                          stress_starts()[fit.start].name, fit.ratio, fit.held_out_loss,
+                          stress_starts()[fit.start].name, fit.ratio, fit.loss,
                           report.run.spread[fit.lobe], fit.matrix.determinant(),
                           fit.start_abandoned ? 1 : 0, fit.steps, 1e3 * fit.seconds);
     }

@@ -3,6 +3,7 @@
 #include "stress/run.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -51,7 +52,8 @@ class Runner {
     }
     const FitResult reference =
         reference_->fit(request(lobe, task_.reference), *worker.workspace, nullptr);
-    run.best_loss[index] = set_ratios(fits, worker.judge.loss(reference.matrix));
+    run.best_loss[index] =
+        set_ratios(fits, worker.judge.loss(reference.matrix), worker.judge.noise());
     std::copy(fits.begin(), fits.end(),
               run.fits.begin() + static_cast<std::ptrdiff_t>(index * fits.size()));
   }
@@ -87,10 +89,10 @@ class Runner {
     StressFit& last = fits.back();
     for (std::size_t i = 0; i + 1 < fits.size(); ++i)
       if (fits[i].matrix == last.matrix) {
-        last.held_out_loss = fits[i].held_out_loss;
+        last.loss = fits[i].loss;
         return;
       }
-    last.held_out_loss = judge.loss(last.matrix);
+    last.loss = judge.loss(last.matrix);
   }
 
   const StressTask& task_;
@@ -101,7 +103,7 @@ class Runner {
 }  // namespace
 
 bool StressFit::finite() const {
-  return outcome != FitOutcome::non_finite && matrix.allFinite() && std::isfinite(held_out_loss);
+  return outcome != FitOutcome::non_finite && matrix.allFinite() && std::isfinite(loss);
 }
 
 bool StressFit::determinant_positive() const {
@@ -112,13 +114,14 @@ std::uint64_t stress_seed(const FitSettings& fit) {
   return entry_seed(fit.seed, 0);
 }
 
-double set_ratios(std::vector<StressFit>& fits, double reference_loss) {
+double set_ratios(std::vector<StressFit>& fits, double reference_loss, double noise) {
   double best = reference_loss;
   for (const StressFit& fit : fits)
     if (fit.finite() && fit.determinant_positive())
-      best = std::fmin(best, fit.held_out_loss);  // takes the number of a number and a NaN
+      best = std::fmin(best, fit.loss);  // takes the number of a number and a NaN
   for (StressFit& fit : fits)
-    fit.ratio = fit.finite() ? fit.held_out_loss / best : std::numeric_limits<double>::quiet_NaN();
+    fit.ratio = fit.finite() ? std::max(fit.loss, noise) / std::max(best, noise)
+                             : std::numeric_limits<double>::quiet_NaN();
   return best;
 }
 

@@ -23,14 +23,14 @@ struct StressTask {
   // What `fit` is measured against beside its own fits: the best of the two at each lobe.
   FitSettings reference;
   std::vector<StressLobe> lobes;
-  CompareSettings judge;  // the judge of all: HeldOutJudge
+  CompareSettings judge;  // the judge of all, see graded_judge.h
 };
 
 struct StressFit {
   std::size_t lobe = 0;   // index into the task's
   std::size_t start = 0;  // index into stress_starts()
   Eigen::Matrix3d matrix;
-  double held_out_loss = 0;
+  double loss = 0;   // the judge's
   double ratio = 0;  // the loss over the least at this lobe; NaN where there is none
   int steps = 0;
   double seconds = 0;
@@ -45,7 +45,7 @@ struct StressRun {
   // Of each lobe all starts in the order of stress_starts(), lobe after lobe.
   std::vector<StressFit> fits;
   std::vector<double> best_loss;  // one a lobe: of all starts and of the reference's own
-  std::vector<double> spread;     // of the lobes, HeldOutJudge::spread
+  std::vector<double> spread;     // of the lobes, GradedJudge::spread
   double seconds = 0;             // of the whole run
 };
 
@@ -57,7 +57,8 @@ std::uint64_t stress_seed(const FitSettings& fit);
 StressRun run_stress(const StressTask& task, int threads, Progress* progress);
 
 // `ratio` of all fits of a lobe, whose losses are known: over the least of them that a finite
-// matrix with determinant > 0 has, `reference_loss` (which may be NaN) included. Returns that.
-double set_ratios(std::vector<StressFit>& fits, double reference_loss);
+// matrix with determinant > 0 has, `reference_loss` (which may be NaN) included. Losses below the
+// judge's noise count as much as the noise. Returns the least loss.
+double set_ratios(std::vector<StressFit>& fits, double reference_loss, double noise);
 
 }  // namespace ltc
