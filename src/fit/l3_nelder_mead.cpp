@@ -83,6 +83,9 @@ SimplexSearch search_by_simplex(const LobeFrame& frame, const Eigen::Matrix3d& s
                                 const FreeEntries& free, const L3Error& error,
                                 const L3Settings& settings, const Progress* progress,
                                 std::vector<FitStep>* trace) {
+  // A simplex has no extent along a column that is zero, and none at all where it is not finite.
+  if (!start.allFinite() || !(start.colwise().squaredNorm().minCoeff() > 0))
+    return {start, std::numeric_limits<double>::infinity(), 0, false};
   const FreeVariables variables(free);
   std::vector<double> values = variables.of(start);
   Eigen::Matrix3d steps;
