@@ -14,8 +14,8 @@ namespace ltc {
 
 // One lobe: what light directions a viewer sees.
 struct GgxLobe {
-  double alpha_x = 1.0;        // > 0; meaningful down to 1e-6
-  double alpha_y = 1.0;        // > 0; meaningful down to 1e-6
+  double alpha_x = 1.0;        // > 0; meaningful down to 1e-12
+  double alpha_y = 1.0;        // > 0; meaningful down to 1e-12
   double theta_radians = 0.0;  // elevation of the view direction, [0, pi/2)
   double phi_radians = 0.0;    // azimuth of the view direction
 

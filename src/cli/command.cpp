@@ -11,6 +11,7 @@ Action declare_diff(CLI::App& app);
 Action declare_validate(CLI::App& app);
 Action declare_bench(CLI::App& app);
 Action declare_render(CLI::App& app);
+Action declare_stress(CLI::App& app);
 
 std::span<const Command> commands() {
   static constexpr Command all[] = {
@@ -24,6 +25,8 @@ std::span<const Command> commands() {
        "check that a table is sound, and name the entries that are not", declare_validate},
       {"bench", "Compare and validate tables",
        "measure the run time and error of many settings in one run", declare_bench},
+      {"stress", "Compare and validate tables",
+       "fit at the extremes from good and bad starts, and count what fails", declare_stress},
       {"render", "Compare and validate tables", "render spheres with a table and with sampled GGX",
        declare_render},
   };

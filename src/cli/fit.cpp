@@ -96,6 +96,9 @@ bool names_parameters(const Arguments& arguments) {
   return arguments.alpha_x || arguments.alpha_y || arguments.theta_degrees || arguments.phi_degrees;
 }
 
+// What the stress runs go down to.
+constexpr double least_alpha = 1e-12;
+
 GgxLobe parse_lobe(const Arguments& arguments) {
   const std::array<std::pair<const char*, std::optional<double>>, 4> parameters = {
       {{"--alpha-x", arguments.alpha_x},
@@ -109,7 +112,7 @@ GgxLobe parse_lobe(const Arguments& arguments) {
                       "--theta and --phi together, or by --entry",
                       option));
   const auto roughness = [](const char* option, double alpha) {
-    return require_in(option, alpha, alpha >= 1e-6 && alpha <= 1, "a number in [1e-06, 1]");
+    return require_in(option, alpha, alpha >= least_alpha && alpha <= 1, "a number in [1e-12, 1]");
   };
   const double theta = *arguments.theta_degrees, phi = *arguments.phi_degrees;
   return {roughness("--alpha-x", *arguments.alpha_x), roughness("--alpha-y", *arguments.alpha_y),
@@ -119,10 +122,27 @@ GgxLobe parse_lobe(const Arguments& arguments) {
               require_in("--phi", phi, phi >= -360 && phi <= 360, "degrees in [-360, 360]"))};
 }
 
+// The nine numbers of --start matrix=…, M by rows. Any numbers: solvers have to cope.
+Eigen::Matrix3d parse_matrix(const std::string& text, std::string_view numbers) {
+  Eigen::Matrix3d matrix;
+  const char* at = numbers.data();
+  const char* const end = at + numbers.size();
+  for (int entry = 0; entry < 9; ++entry) {
+    const auto [stop, error] = std::from_chars(at, end, matrix(entry / 3, entry % 3));
+    if (error != std::errc() || (entry < 8 ? stop == end || *stop != ',' : stop != end))
+      throw InputError(fmt::format("--start {}: expected matrix= and nine numbers between commas",
+                                   shell_quoted(text)));
+    at = stop + 1;
+  }
+  return matrix;
+}
+
 // M of --start; `entry` is that of the config's grid, where the lobe is one.
 Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const GgxLobe& lobe,
                             std::optional<std::size_t> entry, std::uint64_t seed) {
-  constexpr std::string_view from = "from=";
+  constexpr std::string_view from = "from=", given = "matrix=";
+  if (text.starts_with(given))
+    return parse_matrix(text, std::string_view(text).substr(given.size()));
   if (text.starts_with(from)) {
     const std::string file = text.substr(from.size());
     const Table table = read_table(file);
@@ -139,7 +159,8 @@ Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const
     if (text == start_name(kind))
       return starting_matrix(kind, lobe, seed);
   throw InputError(
-      fmt::format("--start {}: expected first-order, moments, identity, random or from=TABLE.h5",
+      fmt::format("--start {}: expected first-order, moments, identity, random, from=TABLE.h5 or "
+                  "matrix=NINE,NUMBERS",
                   shell_quoted(text)));
 }
 
@@ -282,10 +303,10 @@ void add_lobe_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--scene", arguments.scene, "the scene that the table was made for [none]")
       ->option_text("FILE")
       ->group(group);
-  app.add_option("--alpha-x", arguments.alpha_x, "roughness along x, in [1e-06, 1]")
+  app.add_option("--alpha-x", arguments.alpha_x, "roughness along x, in [1e-12, 1]")
       ->option_text("X")
       ->group(group);
-  app.add_option("--alpha-y", arguments.alpha_y, "roughness along y, in [1e-06, 1]")
+  app.add_option("--alpha-y", arguments.alpha_y, "roughness along y, in [1e-12, 1]")
       ->option_text("Y")
       ->group(group);
   app.add_option("--theta", arguments.theta_degrees,
@@ -316,7 +337,8 @@ void add_fit_options(CLI::App& app, Arguments& arguments) {
       ->option_text("N")
       ->group(group);
   app.add_option("--start", arguments.start,
-                 "first-order, moments, identity, random or from=TABLE.h5 [the solver's own]")
+                 "first-order, moments, identity, random, from=TABLE.h5, or matrix=M00,M01,... of "
+                 "nine numbers [the solver's own]")
       ->option_text("START")
       ->group(group);
   app.add_flag("--check-gradient", arguments.check_gradient,

@@ -8,6 +8,7 @@
 
 #include "cli/output.h"
 #include "config/config.h"
+#include "core/angle.h"
 #include "core/error.h"
 #include "table/entry_text.h"
 
@@ -53,6 +54,20 @@ std::string EntryCommands::fitted(std::size_t flat) const {
 
 std::string EntryCommands::best(std::size_t flat) const {
   return has_config_ && !refined_ ? fitted(flat) : stored(flat);
+}
+
+std::string fit_command(const ConfigArguments& config, const NamedLobe& lobe,
+                        const std::string& start) {
+  return fmt::format("ltcfit fit{} --alpha-x {} --alpha-y {} --theta {} --phi {}{}",
+                     config.as_text(), lobe.alpha_x, lobe.alpha_y, lobe.theta_degrees,
+                     lobe.phi_degrees, start.empty() ? "" : " --start " + shell_quoted(start));
+}
+
+std::string matrix_text(const Eigen::Matrix3d& matrix) {
+  std::string text;
+  for (int entry = 0; entry < 9; ++entry)
+    text += fmt::format("{}{}", entry == 0 ? "matrix=" : ",", matrix(entry / 3, entry % 3));
+  return text;
 }
 
 }  // namespace ltc::cli

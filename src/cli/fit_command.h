@@ -3,9 +3,11 @@
 // The commands that look into an entry of a table.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 
+#include "cli/options.h"
 #include "table/table.h"
 
 namespace ltc::cli {
@@ -33,5 +35,18 @@ class EntryCommands {
   std::string file_;  // as a shell reads it
   bool has_config_ = false, refined_ = false;
 };
+
+// A lobe by the numbers that the command line takes.
+struct NamedLobe {
+  double alpha_x, alpha_y, theta_degrees, phi_degrees;
+};
+
+// The command that fits this very lobe, every number to its last bit, from `start` as --start takes
+// it (empty: the solver's own).
+std::string fit_command(const ConfigArguments& config, const NamedLobe& lobe,
+                        const std::string& start);
+
+// "matrix=1,0,0,…": M by rows, as --start takes it, to the last bit.
+std::string matrix_text(const Eigen::Matrix3d& matrix);
 
 }  // namespace ltc::cli

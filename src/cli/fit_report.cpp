@@ -33,21 +33,26 @@ std::string own_start_name(int start) {
   return start < 3 ? names[static_cast<std::size_t>(start)] : fmt::format("random {}", start - 2);
 }
 
+// --start as the name of a phase.
+std::string given_start_name(const std::string& start) {
+  if (start.starts_with("from="))
+    return "from table";
+  return start.starts_with("matrix=") ? "given matrix" : start;
+}
+
 std::string phase_name(const FitReport& report, const WatchedFit& fit, const FitStep& step) {
   if (report.settings.solver == SolverKind::sgd)
     return "descent";
   if (report.settings.solver == SolverKind::l3_nelder_mead)
     return "simplex";
   const std::string sweep = fit.sweep > 0 ? fmt::format("sweep {} ", fit.sweep) : "";
-  const int starts =
-      fit.sweep == 0 && report.start.empty() ? report.settings.gauss_newton.starts : 1;
-  if (step.start >= starts)
-    return sweep + fmt::format("fine {}", step.start - starts + 1);
+  if (step.phase.kind == FitPhase::Kind::fine)
+    return sweep + fmt::format("fine {}", step.phase.index + 1);
   if (fit.sweep > 0)
     return sweep + "coarse";
-  if (report.start.empty())
-    return "coarse " + own_start_name(step.start);
-  return "coarse " + (report.start.starts_with("from=") ? "from table" : report.start);
+  if (step.phase.kind == FitPhase::Kind::own_start)
+    return "coarse " + own_start_name(step.phase.index);
+  return "coarse " + given_start_name(report.start);
 }
 
 std::vector<NamedStep> named_steps(const FitReport& report) {
@@ -73,7 +78,8 @@ std::string status_text(const FitReport& report) {
 
 std::string start_text(const FitReport& report) {
   if (!report.start.empty())
-    return report.start;
+    return report.start +
+           (report.fit.start_abandoned ? ": abandoned, the solver's own led further" : "");
   if (report.settings.solver == SolverKind::sgd)
     return std::string(start_name(report.settings.sgd.start));
   if (report.settings.solver == SolverKind::l3_nelder_mead)

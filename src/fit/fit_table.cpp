@@ -74,21 +74,22 @@ std::vector<std::size_t> neighbours_of(const Grid& grid, std::size_t flat) {
   return neighbours;
 }
 
-void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
-               std::vector<FitStep>* trace, FittedEntry& entry) {
+FitResult fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
+                    std::vector<FitStep>* trace, FittedEntry& entry) {
   const FitResult result = solver.fit(request, workspace, trace);
   entry.steps += result.steps;
   if (request.incumbent && result.matrix == request.incumbent->matrix)
-    return;
+    return result;
   if (result.outcome == FitOutcome::non_finite) {
     entry.status = Status::failed;
     entry.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
     entry.loss = std::numeric_limits<double>::quiet_NaN();
-    return;
+    return result;
   }
   entry.status = result.outcome == FitOutcome::analytic ? Status::analytic : Status::fitted;
   entry.matrix = rounded_to_symmetry(request.lobe, result.matrix);
   entry.loss = result.loss;
+  return result;
 }
 
 std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat,

@@ -59,8 +59,8 @@ std::vector<std::size_t> neighbours_of(const Grid& grid, std::size_t flat);
 
 // What every entry of a table goes through: fits the request's lobe and stores the result, its
 // steps added to those that `entry` has. `trace` may be null.
-void fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
-               std::vector<FitStep>* trace, FittedEntry& entry);
+FitResult fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
+                    std::vector<FitStep>* trace, FittedEntry& entry);
 
 // The solutions of an entry's neighbours along the four axes, carried over into its own frame: what
 // changes slowly from node to node is P, not M. Neighbours without values are left out.

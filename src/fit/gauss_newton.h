@@ -18,7 +18,7 @@ struct DescentOptions {
   double damping = 1e-2;    // first damping, relative to the curvature's diagonal
   std::size_t direction_stride = 1;  // every which of the target's directions is looked along
   // What a trace calls these steps, and since when it counts time.
-  int phase = 0;
+  FitPhase phase = {};
   std::chrono::steady_clock::time_point begin = {};
   const Progress* progress = nullptr;  // where not null, a stop asked for ends it early
 };

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fit/starting_points.h"
 #include "fit/workspace.h"
@@ -39,10 +40,50 @@ constexpr double worthwhile_gain = 2e-3;
 // the lobe's spread: less than the samples of a fit can tell.
 constexpr double exact_first_order = 2.1e-3;
 
+// How far P0 is off: its error relative to the lobe's width is of this order.
+double first_order_error(const LobeFrame& frame) {
+  const double cosine = frame.omega_v.z();
+  return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) / (cosine * cosine);
+}
+
+// Lobes like those of a default table, whose alpha is 1e-4 or at least 1/7 and whose views end at
+// 89.991 degrees, are told apart well by any samples and have one minimum that matters. The others
+// are beyond `usual`: their noise, or their several minima, need more work.
+constexpr double least_usual_alpha = 0.14, least_usual_lambda = 0.14, sharp_alpha = 1.0001e-4;
+// A sharp lobe is bent where P0 is off by more than this.
+constexpr double bent = 1e3;
+constexpr double grazing_cosine = 1.4e-4;  // of 89.992 degrees
+
 bool first_order_is_exact(const LobeFrame& frame) {
   const double cosine = frame.omega_v.z();
   return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < exact_first_order * cosine * cosine;
 }
+
+bool usual(const LobeFrame& frame) {
+  const auto [thin, wide] = std::minmax(frame.lobe.alpha_x, frame.lobe.alpha_y);
+  if (frame.omega_v.z() < grazing_cosine)
+    return false;
+  if (wide < least_usual_alpha)
+    return wide <= sharp_alpha && first_order_error(frame) >= bent;
+  return thin >= least_usual_lambda * wide || thin <= sharp_alpha;
+}
+
+// Of the graded sets.
+constexpr int least_graded_samples = 512;
+
+// How many starts lobes that are not usual get at least.
+constexpr int starts_at_extremes = 8;
+
+// A given start is abandoned where it ends this share above the solver's own.
+constexpr double clearly_worse = 2e-3;
+
+// Coarse solutions up to this many times the least may overtake it on fine samples; at most so many
+// are tried.
+constexpr double rival_share = 1.5;
+constexpr std::size_t most_rivals = 4;
+
+// What the widths of lobes may differ by for want of samples, as a share of the spread.
+constexpr double width_noise = 0.1;
 
 bool usable(const Eigen::Matrix3d& start) {
   return start.allFinite() && start.determinant() > 0;
@@ -53,14 +94,67 @@ FitResult no_result(int steps) {
   return {Eigen::Matrix3d::Constant(nan), nan, steps, FitOutcome::non_finite};
 }
 
+// The first level that has samples enough for a lobe whose loss is this share of its spread.
+template <typename Levels>
+std::size_t level_for(const Levels& levels, double relative_loss) {
+  std::size_t level = 0;
+  while (level + 1 < levels.size() &&
+         static_cast<double>(levels[level].cosines.size()) * relative_loss <
+             samples_per_inverse_loss)
+    ++level;
+  return level;
+}
+
 }  // namespace
 
-GaussNewtonSolver::Level GaussNewtonSolver::make_level(int samples, int steps, double tolerance,
-                                                       double shift) {
-  Level level{make_cosine_set(static_cast<std::size_t>(samples), shift), {}};
+GaussNewtonSolver::Level GaussNewtonSolver::make_level(CosineSet cosines, int steps,
+                                                       double tolerance) {
+  Level level{std::move(cosines), {}};
   level.options.steps = steps;
   level.options.tolerance = tolerance;
   return level;
+}
+
+GaussNewtonSolver::Ladder GaussNewtonSolver::make_ladder(const GaussNewtonSettings& settings) {
+  Ladder ladder;
+  ladder.lattice = make_target_lattice(static_cast<std::size_t>(settings.target_samples), 0.3);
+  ladder.light_lattice =
+      settings.adaptive
+          ? make_target_lattice(static_cast<std::size_t>(std::max(settings.target_samples / 2, 64)),
+                                0.3)
+          : ladder.lattice;
+  ladder.coarse =
+      make_level(make_cosine_set(static_cast<std::size_t>(settings.coarse_samples), 0.1),
+                 settings.coarse_steps, settings.coarse_tolerance);
+  for (const int divisor : {4, 2, 1}) {
+    const int samples = settings.samples / divisor;
+    if (divisor > 1 && (!settings.adaptive || samples < settings.coarse_samples))
+      continue;
+    ladder.levels.push_back(make_level(make_cosine_set(static_cast<std::size_t>(samples)),
+                                       settings.steps, settings.tolerance));
+  }
+  return ladder;
+}
+
+// For what is not usual. The tails of sharp lobes are so heavy that with equally weighted samples
+// the outermost one alone makes up per cents of the loss: the fit follows its noise. Graded sets
+// have a thousand times lighter ones out there. Besides, each level draws the target from the very
+// lattice of its cosine set: to first order P0 sends a cosine sample to where the visible normal of
+// the same lattice point reflects, so that what noise is left is the same on both sides.
+GaussNewtonSolver::Ladder GaussNewtonSolver::make_graded_ladder(
+    const GaussNewtonSettings& settings) {
+  const auto coarse =
+      static_cast<std::size_t>(std::max(settings.coarse_samples, least_graded_samples));
+  const auto fine =
+      static_cast<std::size_t>(std::clamp(settings.samples, least_graded_samples, 4096));
+  Ladder ladder;
+  ladder.graded_light_lattice = make_graded_lattice(coarse);
+  ladder.graded_lattice = make_graded_lattice(fine);
+  ladder.coarse =
+      make_level(make_graded_cosine_set(coarse), settings.coarse_steps, settings.coarse_tolerance);
+  ladder.levels.push_back(
+      make_level(make_graded_cosine_set(fine), settings.steps, settings.tolerance));
+  return ladder;
 }
 
 GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target)
@@ -68,27 +162,29 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
       target_kind_(target),
       directions_(in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)))),
       bins_(bins_for(settings.samples)),
-      lattice_(make_target_lattice(static_cast<std::size_t>(settings.target_samples), 0.3)),
-      light_lattice_(settings.adaptive ? make_target_lattice(static_cast<std::size_t>(std::max(
-                                                                 settings.target_samples / 2, 64)),
-                                                             0.3)
-                                       : lattice_),
-      coarse_(make_level(settings.coarse_samples, settings.coarse_steps, settings.coarse_tolerance,
-                         0.1)) {
-  coarse_.options.direction_stride =
-      static_cast<std::size_t>(std::max(1, settings.directions / settings.coarse_directions));
-  for (const int divisor : {4, 2, 1}) {
-    const int samples = settings.samples / divisor;
-    if (divisor > 1 && (!settings.adaptive || samples < settings.coarse_samples))
-      continue;
-    levels_.push_back(make_level(samples, settings.steps, settings.tolerance, 0.0));
-    levels_.back().options.damping = 1e-3;  // it starts next to a minimum
+      usual_(make_ladder(settings)),
+      graded_(make_graded_ladder(settings)) {
+  for (Ladder* ladder : {&usual_, &graded_}) {
+    ladder->coarse.options.direction_stride =
+        static_cast<std::size_t>(std::max(1, settings.directions / settings.coarse_directions));
+    for (Level& level : ladder->levels)
+      level.options.damping = 1e-3;  // it starts next to a minimum
   }
 }
 
-void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed,
-                                   const TargetLattice& lattice, FitWorkspace& workspace) const {
-  if (target_kind_ == TargetKind::weighted)
+const GaussNewtonSolver::Ladder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
+  return target_kind_ == TargetKind::weighted && !usual(frame) ? graded_ : usual_;
+}
+
+void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed, Look look,
+                                   FitWorkspace& workspace) const {
+  const Ladder& ladder = ladder_for(frame);
+  const TargetLattice& lattice = look == Look::whole ? ladder.lattice : ladder.light_lattice;
+  if (&ladder == &graded_)
+    sample_graded_target(frame,
+                         look == Look::whole ? ladder.graded_lattice : ladder.graded_light_lattice,
+                         workspace.target);
+  else if (target_kind_ == TargetKind::weighted)
     sample_weighted_target(frame, lattice, workspace.target);
   else
     sample_rejection_target(frame, lattice.size(), seed, workspace.target);
@@ -96,23 +192,16 @@ void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed,
                             workspace.model.bins);
 }
 
-std::size_t GaussNewtonSolver::level_for(double relative_loss) const {
-  std::size_t level = 0;
-  while (level + 1 < levels_.size() &&
-         static_cast<double>(levels_[level].cosines.size()) * relative_loss <
-             samples_per_inverse_loss)
-    ++level;
-  return level;
-}
-
 std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& frame,
                                                            std::uint64_t seed,
                                                            const FitWorkspace& workspace) const {
+  const int count =
+      usual(frame) ? settings_.starts : std::max(settings_.starts, starts_at_extremes);
   std::vector<Eigen::Matrix3d> starts = {moment_start(frame, workspace.target),
                                          first_order_start(frame), identity_start(frame)};
-  for (int i = 3; i < settings_.starts; ++i)
+  for (int i = 3; i < count; ++i)
     starts.push_back(random_start(frame, workspace.target, seed + static_cast<std::uint64_t>(i)));
-  starts.resize(static_cast<std::size_t>(settings_.starts));
+  starts.resize(static_cast<std::size_t>(count));
   return starts;
 }
 
@@ -120,138 +209,293 @@ FitResult GaussNewtonSolver::analytic_result(const LobeFrame& frame,
                                              FitWorkspace& workspace) const {
   const Eigen::Matrix3d p = admissible(frame.first_order, free_entries(frame.lobe));
   ModelValue value;
-  evaluate_model(frame, p, levels_.back().cosines, workspace.quantiles, 1,
+  evaluate_model(frame, p, usual_.levels.back().cosines, workspace.quantiles, 1,
                  workspace.quantiles.spread(), workspace.model, value);
   return {frame.to_matrix(p), value.loss, 0, FitOutcome::analytic};
 }
 
-double GaussNewtonSolver::coarse_loss(const LobeFrame& frame, const Eigen::Matrix3d& start,
-                                      FitWorkspace& workspace) const {
-  ModelValue value;
-  evaluate_model(frame, start, coarse_.cosines, workspace.quantiles,
-                 coarse_.options.direction_stride, workspace.quantiles.spread(), workspace.model,
-                 value);
-  return value.loss;
-}
+// One request under way.
+class GaussNewtonSolver::Fit {
+ public:
+  Fit(const GaussNewtonSolver& solver, const FitRequest& request, FitWorkspace& workspace,
+      std::vector<FitStep>* trace)
+      : solver_(solver),
+        request_(request),
+        workspace_(workspace),
+        trace_(trace),
+        frame_(request.lobe),
+        free_(free_entries(request.lobe)),
+        ladder_(solver.ladder_for(frame_)) {}
 
-Descent GaussNewtonSolver::best_coarse_descent(const LobeFrame& frame,
-                                               const std::vector<Eigen::Matrix3d>& starts,
-                                               DescentOptions options, FitWorkspace& workspace,
-                                               FitResult& result,
-                                               std::vector<FitStep>* trace) const {
-  const FreeEntries free = free_entries(frame.lobe);
-  std::vector<double> losses;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Eigen::Matrix3d& start : starts) {
-    losses.push_back(usable(start) ? coarse_loss(frame, start, workspace)
-                                   : std::numeric_limits<double>::infinity());
-    least = std::min(least, losses.back());
+  FitResult run() {
+    see_target(Look::light);
+    if ((request_.starts.empty() || !request_.incumbent) && first_order_is_exact(frame_)) {
+      FitResult result = solver_.analytic_result(frame_, workspace_);
+      result.start_abandoned = !request_.starts.empty();
+      return result;
+    }
+    return request_.incumbent ? improve(*request_.incumbent) : fit_anew();
   }
-  Descent best;
-  best.loss = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (!(std::isfinite(losses[i]) && losses[i] <= (1 + settings_.start_margin) * least))
-      continue;
-    options.phase = static_cast<int>(i);
-    const Descent descent = minimise(frame, starts[i], free, coarse_.cosines, workspace.quantiles,
-                                     options, workspace.model, trace);
-    result.steps += descent.steps;
-    if (descent.loss < best.loss)
-      best = descent;
-  }
-  return best;
-}
 
-std::vector<Eigen::Matrix3d> GaussNewtonSolver::promising(
-    const LobeFrame& frame, const std::vector<Eigen::Matrix3d>& starts, double loss_to_beat,
-    FitWorkspace& workspace) const {
-  std::vector<Eigen::Matrix3d> kept;
-  double best = promising_share * loss_to_beat;
-  for (const Eigen::Matrix3d& start : starts) {
-    if (!usable(start))
-      continue;
-    const double loss = coarse_loss(frame, start, workspace);
-    if (loss < best) {
-      best = loss;
-      kept.assign(1, start);
+ private:
+  using Kind = FitPhase::Kind;
+
+  // A coarse solution that the fine phase may go on from.
+  struct Candidate {
+    Descent descent;
+    bool given = false;
+    double loss = 0;  // honest
+  };
+
+  FitResult fit_anew() {
+    if (request_.starts.empty() && usual(frame_)) {
+      const Descent best = best_of(coarse_descents(own_starts(), Kind::own_start));
+      return std::isfinite(best.loss) ? climbed(best) : no_result(result_.steps);
+    }
+    std::vector<Candidate> candidates;
+    for (const Descent& descent : coarse_descents(widened(given_starts()), Kind::given_start))
+      candidates.push_back({descent, true, honest_loss(descent)});
+    for (const Descent& descent : coarse_descents(own_starts(), Kind::own_start))
+      candidates.push_back({descent, false, honest_loss(descent)});
+    keep_rivals(candidates);
+    return best_climbed(candidates);
+  }
+
+  // The best few, which the coarse samples cannot tell apart for certain.
+  static void keep_rivals(std::vector<Candidate>& candidates) {
+    std::erase_if(candidates, [](const Candidate& c) { return !std::isfinite(c.loss); });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.loss < b.loss; });
+    std::erase_if(candidates, [least = candidates.empty() ? 0 : candidates.front().loss](
+                                  const Candidate& c) { return c.loss > rival_share * least; });
+    if (candidates.size() > most_rivals)
+      candidates.resize(most_rivals);
+  }
+
+  FitResult best_climbed(const std::vector<Candidate>& candidates) {
+    FitResult best = no_result(result_.steps);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Candidate& candidate : candidates) {
+      see_target(Look::light);
+      FitResult result = climbed(candidate.descent);
+      result.start_abandoned = !request_.starts.empty() && !candidate.given;
+      const double loss = fine_loss(result) * (candidate.given ? 1 - clearly_worse : 1);
+      if (loss < least) {
+        least = loss;
+        best = result;
+      }
+    }
+    best.steps = result_.steps;
+    return best;
+  }
+
+  // On the last level, whichever the climb ended on.
+  double fine_loss(const FitResult& result) {
+    see_target(Look::whole);
+    ModelValue value;
+    evaluate_model(frame_, frame_.from_matrix(result.matrix), ladder_.levels.back().cosines,
+                   workspace_.quantiles, 1, workspace_.quantiles.spread(), workspace_.model, value);
+    return value.loss;
+  }
+
+  // From the neighbours' solutions, where they promise more than what there is.
+  FitResult improve(const FitResult& incumbent) {
+    result_ = incumbent;
+    // The incumbent settles on the coarse samples before it is compared on them.
+    const Descent settled =
+        minimise(frame_, admissible(frame_.from_matrix(incumbent.matrix), free_), free_,
+                 ladder_.coarse.cosines, workspace_.quantiles, options_of(ladder_.coarse, {}),
+                 workspace_.model, nullptr);
+    result_.steps = settled.steps;
+    const bool given = !request_.starts.empty();
+    const Descent best =
+        best_of(coarse_descents(promising(given ? given_starts() : own_starts(), settled.loss),
+                                given ? Kind::given_start : Kind::own_start));
+    if (!(best.loss < (1 - worthwhile_gain) * settled.loss))
+      return result_;
+    FitResult improved = climbed(best);
+    if (improved.loss < incumbent.loss)
+      return improved;
+    result_.steps = improved.steps;
+    return result_;
+  }
+
+  void see_target(Look look) { solver_.see_target(frame_, request_.seed, look, workspace_); }
+
+  DescentOptions options_of(const Level& level, FitPhase phase) const {
+    DescentOptions options = level.options;
+    options.begin = begin_;
+    options.progress = request_.progress;
+    options.phase = phase;
+    return options;
+  }
+
+  std::vector<Eigen::Matrix3d> given_starts() const {
+    std::vector<Eigen::Matrix3d> starts;
+    for (const Eigen::Matrix3d& matrix : request_.starts)
+      starts.push_back(repaired(frame_, matrix));
+    return starts;
+  }
+  std::vector<Eigen::Matrix3d> own_starts() const {
+    return solver_.own_starts(frame_, request_.seed, workspace_);
+  }
+
+  double coarse_loss(const Eigen::Matrix3d& start) {
+    ModelValue value;
+    evaluate_model(frame_, start, ladder_.coarse.cosines, workspace_.quantiles,
+                   ladder_.coarse.options.direction_stride, workspace_.quantiles.spread(),
+                   workspace_.model, value);
+    return value.loss;
+  }
+
+  // The coarse loss, or what the widths alone make it at least. The model compares means of bins,
+  // so that it takes a lobe far narrower than a bin for a good one wherever its mean is right; but
+  // for every centre c the distance of X and Y is at least |E|X - c| - E|Y - c||.
+  double honest_loss(const Descent& descent) {
+    if (!std::isfinite(descent.loss))
+      return descent.loss;
+    coarse_loss(descent.frame_matrix);  // transforms the samples
+    const ModelWorkspace& model = workspace_.model;
+    const std::size_t stride = ladder_.coarse.options.direction_stride;
+    const CosineSet& cosines = ladder_.coarse.cosines;
+    const std::size_t count = cosines.size();
+    const auto total = static_cast<double>(cosines.total());
+    const auto multiplicity = [&](std::size_t i) {
+      return cosines.multiplicity.empty() ? 1.0 : cosines.multiplicity[i];
+    };
+    double difference = 0;
+    std::size_t directions = 0;
+    for (std::size_t k = 0; k < workspace_.quantiles.direction_count(); k += stride, ++directions) {
+      const kernels::ProjectionMap& map = workspace_.quantiles.map(k);
+      double deviation = 0;
+      for (std::size_t i = 0; i < count; ++i)
+        deviation += multiplicity(i) *
+                     std::abs(map.direction_x * model.gx[i] + map.direction_y * model.gy[i] +
+                              map.direction_z * model.gz[i] - map.centre);
+      difference += std::abs(deviation / total - 1 / map.inverse_scale);
+    }
+    const double least =
+        difference / static_cast<double>(directions) - width_noise * workspace_.quantiles.spread();
+    return std::max(descent.loss, least);
+  }
+
+  // From every start whose loss is not hopeless beside the least.
+  std::vector<Descent> coarse_descents(const std::vector<Eigen::Matrix3d>& starts, Kind kind) {
+    std::vector<double> losses;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Eigen::Matrix3d& start : starts) {
+      losses.push_back(usable(start) ? coarse_loss(start)
+                                     : std::numeric_limits<double>::infinity());
+      least = std::min(least, losses.back());
+    }
+    const double most = !usual(frame_) ? std::numeric_limits<double>::max()
+                                       : (1 + solver_.settings_.start_margin) * least;
+    std::vector<Descent> descents;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      if (!(std::isfinite(losses[i]) && losses[i] <= most))
+        continue;
+      descents.push_back(minimise(
+          frame_, starts[i], free_, ladder_.coarse.cosines, workspace_.quantiles,
+          options_of(ladder_.coarse, {kind, static_cast<int>(i)}), workspace_.model, trace_));
+      result_.steps += descents.back().steps;
+    }
+    return descents;
+  }
+
+  // Of infinite loss where there is none.
+  static Descent best_of(const std::vector<Descent>& descents) {
+    Descent best;
+    best.loss = std::numeric_limits<double>::infinity();
+    for (const Descent& descent : descents)
+      if (descent.loss < best.loss)
+        best = descent;
+    return best;
+  }
+
+  // A start that would fall into a single bin, where the model sees only its mean, starts a tenth
+  // as wide as the lobe instead.
+  std::vector<Eigen::Matrix3d> widened(std::vector<Eigen::Matrix3d> starts) const {
+    constexpr double narrowest = 0.1;
+    const double lobe_width = width(moment_start(frame_, workspace_.target));
+    for (Eigen::Matrix3d& start : starts)
+      if (const double share = width(start) / lobe_width; share < narrowest && share > 0)
+        start.leftCols<2>() *= narrowest / share;
+    return starts;
+  }
+  // Of the wider of its two columns.
+  double width(const Eigen::Matrix3d& p) const {
+    return std::max(frame_.lobe.alpha_x * p.col(0).norm(), frame_.lobe.alpha_y * p.col(1).norm()) /
+           p.col(2).norm();
+  }
+
+  // The start of least loss, where that is not hopeless beside `loss_to_beat`; none otherwise.
+  std::vector<Eigen::Matrix3d> promising(const std::vector<Eigen::Matrix3d>& starts,
+                                         double loss_to_beat) {
+    std::vector<Eigen::Matrix3d> kept;
+    double best = promising_share * loss_to_beat;
+    for (const Eigen::Matrix3d& start : starts) {
+      if (!usable(start))
+        continue;
+      const double loss = coarse_loss(start);
+      if (loss < best) {
+        best = loss;
+        kept.assign(1, start);
+      }
+    }
+    return kept;
+  }
+
+  FitResult climbed(const Descent& coarse) {
+    const Descent descent = climb(coarse);
+    FitResult result = result_;
+    result.matrix = frame_.to_matrix(descent.frame_matrix);
+    result.loss = descent.loss;
+    result.outcome = descent.converged ? FitOutcome::converged : FitOutcome::step_limit;
+    return result;
+  }
+
+  // From the coarse solution up the levels until the samples suffice for what is left of the loss.
+  // A lobe that needs the last one passes through the one before, where steps are cheap, and gets a
+  // target of its own there.
+  Descent climb(Descent descent) {
+    const std::vector<Level>& levels = ladder_.levels;
+    const std::size_t last = levels.size() - 1;
+    std::size_t level = level_needed(descent);
+    if (level == last && last > 0)
+      --level;
+    if (&ladder_ == &solver_.graded_)
+      see_target(Look::whole);
+    for (int phase = 0;; ++level, ++phase) {
+      DescentOptions options = options_of(levels[level], {Kind::fine, phase});
+      if (level < last && level_needed(descent) > level)
+        options.tolerance = std::max(options.tolerance, passing_tolerance);
+      descent = minimise(frame_, descent.frame_matrix, free_, levels[level].cosines,
+                         workspace_.quantiles, options, workspace_.model, trace_);
+      result_.steps += descent.steps;
+      if (level == last || level_needed(descent) <= level)
+        return descent;
+      if (level + 1 == last)
+        see_target(Look::whole);
     }
   }
-  return kept;
-}
-
-// From the coarse solution up the levels until the samples suffice for what is left of the loss. A
-// lobe that needs the last one passes through the one before, where steps are cheap, and gets a
-// target of its own there.
-Descent GaussNewtonSolver::climb(const LobeFrame& frame, const FitRequest& request, Descent descent,
-                                 DescentOptions watched, FitWorkspace& workspace, FitResult& result,
-                                 std::vector<FitStep>* trace) const {
-  const FreeEntries free = free_entries(frame.lobe);
-  const std::size_t last = levels_.size() - 1;
-  std::size_t level = level_for(descent.loss / workspace.quantiles.spread());
-  if (level == last && last > 0)
-    --level;
-  for (;; ++level) {
-    DescentOptions options = levels_[level].options;
-    options.begin = watched.begin;
-    options.progress = watched.progress;
-    options.phase = watched.phase++;
-    const bool passing =
-        level < last && level_for(descent.loss / workspace.quantiles.spread()) > level;
-    if (passing)
-      options.tolerance = std::max(options.tolerance, passing_tolerance);
-    descent = minimise(frame, descent.frame_matrix, free, levels_[level].cosines,
-                       workspace.quantiles, options, workspace.model, trace);
-    result.steps += descent.steps;
-    if (level == last || level_for(descent.loss / workspace.quantiles.spread()) <= level)
-      return descent;
-    if (level + 1 == last)
-      see_target(frame, request.seed, lattice_, workspace);
+  std::size_t level_needed(const Descent& descent) const {
+    return level_for(ladder_.levels, descent.loss / workspace_.quantiles.spread());
   }
-}
+
+  const GaussNewtonSolver& solver_;
+  const FitRequest& request_;
+  FitWorkspace& workspace_;
+  std::vector<FitStep>* trace_;
+  LobeFrame frame_;
+  FreeEntries free_;
+  const Ladder& ladder_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  FitResult result_;
+};
 
 FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                                  std::vector<FitStep>* trace) const {
-  const LobeFrame frame(request.lobe);
-  const FreeEntries free = free_entries(request.lobe);
-  DescentOptions options = coarse_.options;
-  options.begin = std::chrono::steady_clock::now();
-  options.progress = request.progress;
-  see_target(frame, request.seed, light_lattice_, workspace);
-  if (request.starts.empty() && first_order_is_exact(frame))
-    return analytic_result(frame, workspace);
-
-  std::vector<Eigen::Matrix3d> starts;
-  for (const Eigen::Matrix3d& matrix : request.starts)
-    starts.push_back(admissible(frame.from_matrix(matrix), free));
-  if (starts.empty())
-    starts = own_starts(frame, request.seed, workspace);
-
-  FitResult result;
-  double loss_to_beat = std::numeric_limits<double>::infinity();
-  if (request.incumbent) {
-    result = *request.incumbent;
-    // The incumbent settles on the coarse samples before it is compared on them.
-    const Descent settled =
-        minimise(frame, admissible(frame.from_matrix(result.matrix), free), free, coarse_.cosines,
-                 workspace.quantiles, options, workspace.model, nullptr);
-    result.steps = settled.steps;
-    loss_to_beat = settled.loss;
-    starts = promising(frame, starts, loss_to_beat, workspace);
-  }
-  const Descent best = best_coarse_descent(frame, starts, options, workspace, result, trace);
-  if (!(best.loss < (1 - worthwhile_gain) * loss_to_beat)) {
-    if (!request.incumbent)
-      result = no_result(result.steps);
-    return result;
-  }
-  options.phase = static_cast<int>(starts.size());
-  const Descent descent = climb(frame, request, best, options, workspace, result, trace);
-  if (request.incumbent && !(descent.loss < result.loss))
-    return result;
-  result.matrix = frame.to_matrix(descent.frame_matrix);
-  result.loss = descent.loss;
-  result.outcome = descent.converged ? FitOutcome::converged : FitOutcome::step_limit;
-  return result;
+  return Fit(*this, request, workspace, trace).run();
 }
 
 }  // namespace ltc

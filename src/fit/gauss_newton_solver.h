@@ -2,6 +2,10 @@
 // Copyright (c) 2026 the ltcfit authors
 // The default solver: quantile Gauss-Newton from several starts on a coarse sample set, then from
 // the best of them on a fine one.
+//
+// Given starts may be anything. Their scale, the sign of their determinant and the hemisphere they
+// look into are put right; one that has no lobe at all, or whose coarse descent ends worse than
+// that of the solver's own starts, is abandoned for these (FitResult::start_abandoned).
 #pragma once
 
 #include <vector>
@@ -26,37 +30,35 @@ class GaussNewtonSolver final : public Solver {
     CosineSet cosines;
     DescentOptions options;
   };
-  static Level make_level(int samples, int steps, double tolerance, double shift);
+  // The sets of a fit, from coarse to fine.
+  struct Ladder {
+    Level coarse;
+    std::vector<Level> levels;  // ascending
+    // Of the last level, and of all below: equally weighted, or graded.
+    TargetLattice lattice, light_lattice;
+    GradedLattice graded_lattice, graded_light_lattice;
+  };
+  static Level make_level(CosineSet cosines, int steps, double tolerance);
+  static Ladder make_ladder(const GaussNewtonSettings& settings);
+  static Ladder make_graded_ladder(const GaussNewtonSettings& settings);
+  const Ladder& ladder_for(const LobeFrame& frame) const;
 
-  // Draws the target from one of the lattices and looks at it along all directions.
-  void see_target(const LobeFrame& frame, std::uint64_t seed, const TargetLattice& lattice,
+  // Draws the target from one of the lobe's lattices and looks at it along all directions.
+  enum class Look { light, whole };
+  void see_target(const LobeFrame& frame, std::uint64_t seed, Look look,
                   FitWorkspace& workspace) const;
+  // At least as many as the settings say.
   std::vector<Eigen::Matrix3d> own_starts(const LobeFrame& frame, std::uint64_t seed,
                                           const FitWorkspace& workspace) const;
-  // The first level that has samples enough for a lobe whose loss is this share of its spread.
-  std::size_t level_for(double relative_loss) const;
-  Descent climb(const LobeFrame& frame, const FitRequest& request, Descent descent,
-                DescentOptions watched, FitWorkspace& workspace, FitResult& result,
-                std::vector<FitStep>* trace) const;
-  double coarse_loss(const LobeFrame& frame, const Eigen::Matrix3d& start,
-                     FitWorkspace& workspace) const;
-  // From every start whose loss is not hopeless beside the least.
-  Descent best_coarse_descent(const LobeFrame& frame, const std::vector<Eigen::Matrix3d>& starts,
-                              DescentOptions options, FitWorkspace& workspace, FitResult& result,
-                              std::vector<FitStep>* trace) const;
   FitResult analytic_result(const LobeFrame& frame, FitWorkspace& workspace) const;
-  // The start of least loss, where that is not hopeless beside `loss_to_beat`; none otherwise.
-  std::vector<Eigen::Matrix3d> promising(const LobeFrame& frame,
-                                         const std::vector<Eigen::Matrix3d>& starts,
-                                         double loss_to_beat, FitWorkspace& workspace) const;
 
   GaussNewtonSettings settings_;
   TargetKind target_kind_;
   std::vector<Eigen::Vector3f> directions_;
   std::size_t bins_;
-  TargetLattice lattice_, light_lattice_;  // of the last level, and of all below
-  Level coarse_;
-  std::vector<Level> levels_;  // ascending
+  Ladder usual_, graded_;
+
+  class Fit;
 };
 
 }  // namespace ltc

@@ -71,8 +71,8 @@ struct Objective {
     if (trace)
       trace->push_back(
           {value, 0, 0,
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), better,
-           0});
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+           better});
     return value;
   }
 };
@@ -83,6 +83,9 @@ SimplexSearch search_by_simplex(const LobeFrame& frame, const Eigen::Matrix3d& s
                                 const FreeEntries& free, const L3Error& error,
                                 const L3Settings& settings, const Progress* progress,
                                 std::vector<FitStep>* trace) {
+  // A simplex has no extent along a column that is zero, and none at all where it is not finite.
+  if (!start.allFinite() || !(start.colwise().squaredNorm().minCoeff() > 0))
+    return {start, std::numeric_limits<double>::infinity(), 0, false};
   const FreeVariables variables(free);
   std::vector<double> values = variables.of(start);
   Eigen::Matrix3d steps;

@@ -25,7 +25,8 @@ struct SimplexSearch {
   bool converged = false;  // by the tolerance
 };
 // `error` is a function of M. The first simplex moves every free entry by a tenth of its column's
-// length. `trace` may be null; else it gets every evaluation as a step.
+// length: a start with a column of zeros, or one that is not finite, has an infinite error. `trace`
+// may be null; else it gets every evaluation as a step.
 SimplexSearch search_by_simplex(const LobeFrame& frame, const Eigen::Matrix3d& start,
                                 const FreeEntries& free, const L3Error& error,
                                 const L3Settings& settings, const Progress* progress,

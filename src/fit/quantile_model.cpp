@@ -86,6 +86,24 @@ void sample_weighted_target(const LobeFrame& frame, const TargetLattice& lattice
                          samples.gy.data(), samples.gz.data(), samples.weight.data());
 }
 
+void sample_graded_target(const LobeFrame& frame, const GradedLattice& lattice,
+                          TargetSamples& samples) {
+  reserve(samples, lattice.size());
+  const GgxSampler sampler(frame.lobe);
+  const Eigen::Matrix3d to_frame = frame.rotation.transpose();
+  // Their masses add up to one; the weights of other targets to about their number.
+  const auto scale = static_cast<double>(lattice.size());
+  for (std::size_t i = 0; i < samples.size; ++i) {
+    const GgxSample sample = sampler.reflect(sampler.visible_normal(
+        lattice.cos_azimuth[i], lattice.sin_azimuth[i], 1 - lattice.depth[i]));
+    const Eigen::Vector3d offset = to_frame * sample.offset;
+    samples.gx[i] = static_cast<float>(offset.x());
+    samples.gy[i] = static_cast<float>(offset.y());
+    samples.gz[i] = static_cast<float>(offset.z());
+    samples.weight[i] = static_cast<float>(scale * lattice.mass[i] * sample.weight);
+  }
+}
+
 void TargetQuantiles::reserve(std::size_t directions, std::size_t bin_count) {
   if (bin_count_ != bin_count) {
     bin_count_ = bin_count;
@@ -209,9 +227,33 @@ namespace {
 
 using kernels::directions_at_once;
 
+// Each sample's row as often as it counts.
+void multiply_rows(const CosineSet& cosines, AlignedFloats& rows) {
+  for (std::size_t i = 0; i < cosines.multiplicity.size(); ++i) {
+    const auto factor = static_cast<float>(cosines.multiplicity[i]);
+    float* row = rows.data() + i * row_width;
+    for (std::size_t entry = 0; entry < row_width; ++entry)
+      row[entry] *= factor;
+  }
+}
+
+// The populations anew.
+void count_with_multiplicity(const CosineSet& cosines, std::size_t group, std::size_t bins,
+                             ModelWorkspace& workspace) {
+  const std::size_t count = cosines.size();
+  std::fill_n(workspace.populations.data(), group * bins, 0);
+  for (std::size_t member = 0; member < group; ++member) {
+    const std::int32_t* of_sample = workspace.bins.data() + member * count;
+    std::int32_t* populations = workspace.populations.data() + member * bins;
+    for (std::size_t i = 0; i < count; ++i)
+      populations[of_sample[i]] += cosines.multiplicity[i];
+  }
+}
+
 // The rows of all samples, summed into the bins of each of `maps`.
-void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, std::size_t count,
+void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, const CosineSet& cosines,
                    std::size_t bins, ModelWorkspace& workspace) {
+  const std::size_t count = cosines.size();
   std::array<float, directions_at_once> direction_z;
   for (std::size_t member = 0; member < maps.size(); ++member) {
     direction_z[member] = maps[member]->direction_z;
@@ -224,6 +266,8 @@ void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, std::siz
   kernels::accumulate_rows(workspace.xi.data(), workspace.bins.data(), workspace.rows.data(), count,
                            direction_z.data(), maps.size(), bins, workspace.sums.data(),
                            workspace.populations.data());
+  if (!cosines.multiplicity.empty())
+    count_with_multiplicity(cosines, maps.size(), bins, workspace);
 }
 
 // Adds what one direction's bins say.
@@ -251,7 +295,7 @@ void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
                     const CosineSet& cosines, const TargetQuantiles& target,
                     std::size_t direction_stride, double smoothing, ModelWorkspace& workspace,
                     ModelValue& value) {
-  const std::size_t count = cosines.size(), bins = target.bin_count();
+  const std::size_t count = cosines.size(), total = cosines.total(), bins = target.bin_count();
   workspace.reserve(count, bins);
   float p[9];
   for (int i = 0; i < 9; ++i)
@@ -260,6 +304,7 @@ void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
                              static_cast<float>(frame.lobe.alpha_y), cosines.x.data(),
                              cosines.y.data(), cosines.z.data(), count, workspace.gx.data(),
                              workspace.gy.data(), workspace.gz.data(), workspace.rows.data());
+  multiply_rows(cosines, workspace.rows);
   value.gradient.setZero();
   value.curvature.setZero();
   value.loss = 0;
@@ -270,15 +315,15 @@ void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
     std::size_t group = 0;
     for (; group < directions_at_once && k < target.direction_count(); k += direction_stride)
       maps[group++] = &target.map(k);
-    sum_into_bins({maps.data(), group}, count, bins, workspace);
+    sum_into_bins({maps.data(), group}, cosines, bins, workspace);
     for (std::size_t member = 0; member < group; ++member)
       add_direction(*maps[member], target.cells(first + member * direction_stride),
                     workspace.sums.data() + member * bins * row_width,
-                    workspace.populations.data() + member * bins, bins, count, smoothing,
+                    workspace.populations.data() + member * bins, bins, total, smoothing,
                     workspace.scratch, value);
     directions += group;
   }
-  const double share = 1 / (static_cast<double>(count) * static_cast<double>(directions));
+  const double share = 1 / (static_cast<double>(total) * static_cast<double>(directions));
   value.loss *= share;
   value.gradient *= share;
   value.curvature *= share;

@@ -66,6 +66,11 @@ double target_deviation(const TargetSamples& samples, const Eigen::Vector3d& dir
 void sample_weighted_target(const LobeFrame& frame, const TargetLattice& lattice,
                             TargetSamples& samples);
 
+// The same on a graded lattice, each sample weighted by its mass too; in double precision, for the
+// lattice reaches far into the tails.
+void sample_graded_target(const LobeFrame& frame, const GradedLattice& lattice,
+                          TargetSamples& samples);
+
 // `count` samples of algorithm 1 (VNDF and rejection), all of weight 1, padded with weight 0.
 void sample_rejection_target(const LobeFrame& frame, std::size_t count, std::uint64_t seed,
                              TargetSamples& samples);

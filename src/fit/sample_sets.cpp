@@ -40,7 +40,7 @@ LatticePoint lattice_point(std::size_t i, std::size_t n, double shift) {
 
 CosineSet make_cosine_set(std::size_t count, double shift) {
   const std::size_t n = rounded_up(count);
-  CosineSet set{AlignedFloats(n), AlignedFloats(n), AlignedFloats(n)};
+  CosineSet set{AlignedFloats(n), AlignedFloats(n), AlignedFloats(n), {}};
   for (std::size_t i = 0; i < n; ++i) {
     const auto [azimuth, height] = lattice_point(i, n, shift);
     const double radius = std::sqrt(height);
@@ -61,6 +61,42 @@ TargetLattice make_target_lattice(std::size_t count, double shift) {
     lattice.height[i] = static_cast<float>(height);
   }
   return lattice;
+}
+
+std::size_t CosineSet::total() const {
+  std::size_t sum = multiplicity.empty() ? size() : 0;
+  for (const std::int32_t count : multiplicity)
+    sum += static_cast<std::size_t>(count);
+  return sum;
+}
+
+GradedLattice make_graded_lattice(std::size_t count) {
+  const std::size_t n = rounded_up(count);
+  GradedLattice lattice;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double azimuth = lattice_point(i, n, 0.0).azimuth;
+    const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    lattice.cos_azimuth.push_back(std::cos(azimuth));
+    lattice.sin_azimuth.push_back(std::sin(azimuth));
+    lattice.depth.push_back(t * t);
+    lattice.mass.push_back(2 * t / static_cast<double>(n));
+  }
+  return lattice;
+}
+
+CosineSet make_graded_cosine_set(std::size_t count) {
+  const GradedLattice lattice = make_graded_lattice(count);
+  const std::size_t n = lattice.size();
+  CosineSet set{AlignedFloats(n), AlignedFloats(n), AlignedFloats(n), {}};
+  set.multiplicity.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double radius = std::sqrt(1 - lattice.depth[i]);
+    set.x[i] = static_cast<float>(radius * lattice.cos_azimuth[i]);
+    set.y[i] = static_cast<float>(radius * lattice.sin_azimuth[i]);
+    set.z[i] = static_cast<float>(std::sqrt(lattice.depth[i]));
+    set.multiplicity[i] = static_cast<std::int32_t>(2 * i + 1);
+  }
+  return set;
 }
 
 std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count) {

@@ -15,11 +15,13 @@
 
 namespace ltc {
 
-// Clamped-cosine directions, structure of arrays. Sizes are multiples of 16; all samples weigh the
-// same.
+// Clamped-cosine directions, structure of arrays. Sizes are multiples of 16.
 struct CosineSet {
   AlignedFloats x, y, z;
+  // What each sample counts; empty where all weigh the same.
+  AlignedVector<std::int32_t> multiplicity;
   std::size_t size() const { return x.size(); }
+  std::size_t total() const;  // of the multiplicities
 };
 // `count` (rounded up to a multiple of 16) samples of a golden-ratio lattice; `shift` turns the
 // lattice by that share of a circle: sets with different shifts share no samples.
@@ -31,6 +33,17 @@ struct TargetLattice {
   std::size_t size() const { return height.size(); }
 };
 TargetLattice make_target_lattice(std::size_t count, double shift = 0.0);
+
+// The same points with heights u so graded that the heavy tails of sharp lobes, which are made of
+// the samples with u near 1, have as many of them as all the rest: 1 - u = t^2 with t evenly
+// spaced. Point i of n counts 2 i + 1 of n^2, which is exactly the mass of its cell.
+CosineSet make_graded_cosine_set(std::size_t count);
+// Heights as 1 - u, which single precision could not tell from u = 1.
+struct GradedLattice {
+  std::vector<double> cos_azimuth, sin_azimuth, depth, mass;
+  std::size_t size() const { return depth.size(); }
+};
+GradedLattice make_graded_lattice(std::size_t count);
 
 // Spherical Fibonacci directions on the upper hemisphere; the lower one adds nothing, since d and
 // -d see the same distance.

@@ -107,7 +107,7 @@ class Descender {
         trace->push_back(
             {loss, gradient.norm(), step_size,
              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-             usable, 0});
+             usable});
       step_size *= settings_.step_decay;
       ++result.steps;
       if (usable && step >= settings_.steps - settings_.averaged_steps) {

@@ -15,6 +15,17 @@
 
 namespace ltc {
 
+// What a step belongs to.
+struct FitPhase {
+  enum class Kind {
+    given_start,  // the coarse phase, from a start of the request
+    own_start,    // the same, from one of the solver's own
+    fine,         // from the best of these on; the whole descent of solvers without phases
+  };
+  Kind kind = Kind::fine;
+  int index = 0;  // which of the starts, or of the fine phases
+};
+
 // One step of an optimiser, for those who want to watch.
 struct FitStep {
   double loss = 0;           // of the sample sets that this step used
@@ -22,7 +33,7 @@ struct FitStep {
   double damping = 0;        // Levenberg-Marquardt damping, or the step size of a descent
   double seconds = 0;        // since the fit began
   bool accepted = true;
-  int start = 0;  // which starting point it belongs to; the last phase has the highest
+  FitPhase phase = {};
 };
 
 enum class FitOutcome {
@@ -37,6 +48,8 @@ struct FitResult {
   double loss = 0;         // as the solver saw it, on its own samples
   int steps = 0;           // spent on all starts together
   FitOutcome outcome = FitOutcome::step_limit;
+  // The starts of the request led nowhere as good as the solver's own, which this is the end of.
+  bool start_abandoned = false;
 };
 
 struct FitRequest {

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/random.h"
@@ -34,6 +35,17 @@ Eigen::Matrix3d admissible(const Eigen::Matrix3d& frame_matrix, const FreeEntrie
   if (p.determinant() < 0)
     p.col(1) = -p.col(1);
   return p;
+}
+
+Eigen::Matrix3d repaired(const LobeFrame& frame, const Eigen::Matrix3d& matrix) {
+  const double largest = matrix.cwiseAbs().maxCoeff();
+  if (!matrix.allFinite() || !(largest > 0))
+    return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  // By a power of two: no digit of a good start changes.
+  Eigen::Matrix3d p = frame.from_matrix(matrix * std::ldexp(1.0, -std::ilogb(largest)));
+  if (p(2, 2) < 0)
+    p = -p;
+  return admissible(p, free_entries(frame.lobe));
 }
 
 Eigen::Matrix3d first_order_start(const LobeFrame& frame) {

@@ -41,4 +41,10 @@ Eigen::Matrix3d start_of_kind(StartKind kind, const LobeFrame& frame, const Targ
 // negative, which leaves the lobe as it is. The result may still be singular.
 Eigen::Matrix3d admissible(const Eigen::Matrix3d& frame_matrix, const FreeEntries& free);
 
+// P of a matrix M that may be anything, as near to M as a fit can start from: M at the scale of one
+// and, for the sign of M moves only the lobe to the opposite side of the sphere, looking to the
+// mirror direction's; then `admissible`. NaN for a matrix that is not finite or all zero; may be
+// singular.
+Eigen::Matrix3d repaired(const LobeFrame& frame, const Eigen::Matrix3d& matrix);
+
 }  // namespace ltc

@@ -96,8 +96,9 @@ LobeFit fit_lobe(const Config& config, const GgxLobe& lobe, std::uint64_t seed,
   LobeFit fit;
   fit.lobe = lobe;
   fit.fits.resize(1);
-  fit_entry(*make_solver(config.fit), request, *make_fit_workspace(), &fit.fits.front().steps,
-            fit.fitted);
+  fit.start_abandoned = fit_entry(*make_solver(config.fit), request, *make_fit_workspace(),
+                                  &fit.fits.front().steps, fit.fitted)
+                            .start_abandoned;
   if (progress)
     progress->throw_if_stopped();
   finish(config, fit);

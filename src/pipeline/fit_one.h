@@ -23,6 +23,7 @@ struct LobeFit {
   GgxLobe lobe;
   std::vector<WatchedFit> fits;  // the lobe's own fit, then the sweeps
   FittedEntry fitted;            // as the solver left it; `loss` on the solver's own samples
+  bool start_abandoned = false;  // for the solver's own, see FitResult
   Eigen::Matrix3d aligned;
   PostProcessed finished;
   Eigen::Matrix3d matrix;  // M of what is stored

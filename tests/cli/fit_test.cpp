@@ -252,7 +252,7 @@ TEST(FitBadInput, Parameters) {
   };
   for (const char* option : {"--alpha-x", "--alpha-y"})
     for (const char* value : {"0", "-0.1", "1.01", "nan", "inf"})
-      refuse(option, value, "[1e-06, 1]");
+      refuse(option, value, "[1e-12, 1]");
   for (const char* value : {"-1", "90", "nan"})
     refuse("--theta", value, "[0, 90)");
   for (const char* value : {"-361", "1000", "nan"})

@@ -183,15 +183,38 @@ TEST(GaussNewtonSolver, ReturnsAPositiveDeterminantAndTheSameBitsInAnyWorkspace)
   }
 }
 
-TEST(GaussNewtonSolver, SaysWhereNoStartIsFinite) {
+// Whatever is given, the result is as good as from the solver's own starts.
+TEST(GaussNewtonSolver, AbandonsStartsThatLeadNowhere) {
   const std::unique_ptr<Solver> solver = make_solver({});
   FitRequest request;
   request.lobe = {0.5, 0.4, 0.6, 0.4};
+  const FitResult own = solver->fit(request, *make_fit_workspace(), nullptr);
+  EXPECT_FALSE(own.start_abandoned);
   request.starts = {Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()),
                     Eigen::Matrix3d::Zero()};
-  const FitResult result = solver->fit(request, *make_fit_workspace(), nullptr);
-  EXPECT_EQ(result.outcome, FitOutcome::non_finite);
-  EXPECT_FALSE(result.matrix.allFinite());
+  std::vector<FitStep> trace;
+  const FitResult result = solver->fit(request, *make_fit_workspace(), &trace);
+  EXPECT_TRUE(result.start_abandoned);
+  EXPECT_EQ(result.matrix, own.matrix);
+  ASSERT_FALSE(trace.empty());
+  EXPECT_EQ(trace.front().phase.kind, FitPhase::Kind::own_start);
+}
+
+// Scale and sign move no lobe.
+TEST(GaussNewtonSolver, TakesAGoodStartInAnyScaleAndSign) {
+  const std::unique_ptr<Solver> solver = make_solver({});
+  FitRequest request;
+  request.lobe = {0.5, 0.4, 0.6, 0.4};
+  const Eigen::Matrix3d good = solver->fit(request, *make_fit_workspace(), nullptr).matrix;
+  request.starts = {good};
+  const FitResult expected = solver->fit(request, *make_fit_workspace(), nullptr);
+  EXPECT_FALSE(expected.start_abandoned);
+  for (const double factor : {0x1p-20, 0x1p20, -1.0}) {
+    request.starts = {factor * good};
+    const FitResult result = solver->fit(request, *make_fit_workspace(), nullptr);
+    EXPECT_FALSE(result.start_abandoned);
+    EXPECT_EQ(result.matrix, expected.matrix) << factor;
+  }
 }
 
 }  // namespace

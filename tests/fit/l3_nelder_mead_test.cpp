@@ -223,5 +223,24 @@ TEST(L3NelderMead, NeverReturnsWhatIsNotFinite) {
   }
 }
 
+// A simplex with no extent is no simplex: NLopt threw "zero step size".
+TEST(L3NelderMead, AStartWithoutExtentIsAFailureNotACrash) {
+  FitRequest request;
+  request.lobe = kModerate;
+  const auto solver = [] {
+    FitSettings settings;
+    settings.solver = SolverKind::l3_nelder_mead;
+    settings.l3.evaluations = 10;
+    return make_solver(settings);
+  }();
+  Eigen::Matrix3d singular = Eigen::Matrix3d::Identity();
+  singular.col(1).setZero();
+  for (const Eigen::Matrix3d& start :
+       {singular, Eigen::Matrix3d(Eigen::Matrix3d::Constant(std::nan("")))}) {
+    request.starts = {start};
+    EXPECT_EQ(solver->fit(request, *make_fit_workspace(), nullptr).outcome, FitOutcome::non_finite);
+  }
+}
+
 }  // namespace
 }  // namespace ltc
