@@ -46,33 +46,32 @@ double first_order_error(const LobeFrame& frame) {
   return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) / (cosine * cosine);
 }
 
-// Lobes like those of a default table, whose alpha is 1e-4 or at least 1/7 and whose views end at
-// 89.991 degrees, are told apart well by any samples and have one minimum that matters. The others
-// are beyond `usual`: their noise, or their several minima, need more work.
-constexpr double least_usual_alpha = 0.14, least_usual_lambda = 0.14, sharp_alpha = 1.0001e-4;
-// A sharp lobe is bent where P0 is off by more than this.
-constexpr double bent = 1e3;
-constexpr double grazing_cosine = 1.4e-4;  // of 89.992 degrees
-
 bool first_order_is_exact(const LobeFrame& frame) {
-  const double cosine = frame.omega_v.z();
-  return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < exact_first_order * cosine * cosine;
+  return first_order_error(frame) < exact_first_order;
 }
 
-bool usual(const LobeFrame& frame) {
-  const auto [thin, wide] = std::minmax(frame.lobe.alpha_x, frame.lobe.alpha_y);
-  if (frame.omega_v.z() < grazing_cosine)
-    return false;
-  if (wide < least_usual_alpha)
-    return wide <= sharp_alpha && first_order_error(frame) >= bent;
-  return thin >= least_usual_lambda * wide || thin <= sharp_alpha;
+// P0 is so near to the lobe that what an LTC misses of it is less than the noise of equally
+// weighted samples, most of which is in the tails.
+constexpr double nearly_exact_first_order = 0.14;
+bool first_order_is_nearly_exact(const LobeFrame& frame) {
+  return first_order_error(frame) < nearly_exact_first_order;
+}
+
+// What no table asks for by default: thinner than alpha_min, or nearer to the horizon than its last
+// view, 89.991 degrees. Such lobes have several minima, and more work is done for them.
+constexpr double least_usual_alpha = 0.9999e-4, grazing_cosine = 1.4e-4;
+bool is_extreme(const LobeFrame& frame) {
+  return std::min(frame.lobe.alpha_x, frame.lobe.alpha_y) < least_usual_alpha ||
+         frame.omega_v.z() < grazing_cosine;
 }
 
 // Of the graded sets.
 constexpr int least_graded_samples = 512;
 
-// How many starts lobes that are not usual get at least.
+// How many starts extreme lobes get at least.
 constexpr int starts_at_extremes = 8;
+// And sharp ones: P0 must be among them.
+constexpr int starts_of_sharp = 2;
 
 // A given start is abandoned where it ends this share above the solver's own.
 constexpr double clearly_worse = 2e-3;
@@ -136,11 +135,11 @@ GaussNewtonSolver::Ladder GaussNewtonSolver::make_ladder(const GaussNewtonSettin
   return ladder;
 }
 
-// For what is not usual. The tails of sharp lobes are so heavy that with equally weighted samples
-// the outermost one alone makes up per cents of the loss: the fit follows its noise. Graded sets
-// have a thousand times lighter ones out there. Besides, each level draws the target from the very
-// lattice of its cosine set: to first order P0 sends a cosine sample to where the visible normal of
-// the same lattice point reflects, so that what noise is left is the same on both sides.
+// For sharp and for extreme lobes. The tails of sharp lobes are so heavy that with equally weighted
+// samples the outermost one alone makes up per cents of the loss: the fit follows its noise. Graded
+// sets have a thousand times lighter ones out there. Besides, each level draws the target from the
+// very lattice of its cosine set: to first order P0 sends a cosine sample to where the visible
+// normal of the same lattice point reflects, so that what noise is left is the same on both sides.
 GaussNewtonSolver::Ladder GaussNewtonSolver::make_graded_ladder(
     const GaussNewtonSettings& settings) {
   const auto coarse =
@@ -173,7 +172,10 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
 }
 
 const GaussNewtonSolver::Ladder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
-  return target_kind_ == TargetKind::weighted && !usual(frame) ? graded_ : usual_;
+  return target_kind_ == TargetKind::weighted &&
+                 (is_extreme(frame) || first_order_is_nearly_exact(frame))
+             ? graded_
+             : usual_;
 }
 
 void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed, Look look,
@@ -196,7 +198,9 @@ std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& fram
                                                            std::uint64_t seed,
                                                            const FitWorkspace& workspace) const {
   const int count =
-      usual(frame) ? settings_.starts : std::max(settings_.starts, starts_at_extremes);
+      std::max(settings_.starts, is_extreme(frame)                    ? starts_at_extremes
+                                 : first_order_is_nearly_exact(frame) ? starts_of_sharp
+                                                                      : 1);
   std::vector<Eigen::Matrix3d> starts = {moment_start(frame, workspace.target),
                                          first_order_start(frame), identity_start(frame)};
   for (int i = 3; i < count; ++i)
@@ -248,7 +252,7 @@ class GaussNewtonSolver::Fit {
   };
 
   FitResult fit_anew() {
-    if (request_.starts.empty() && usual(frame_)) {
+    if (request_.starts.empty() && &ladder_ == &solver_.usual_) {
       const Descent best = best_of(coarse_descents(own_starts(), Kind::own_start));
       return std::isfinite(best.loss) ? climbed(best) : no_result(result_.steps);
     }
@@ -388,8 +392,8 @@ class GaussNewtonSolver::Fit {
                                      : std::numeric_limits<double>::infinity());
       least = std::min(least, losses.back());
     }
-    const double most = !usual(frame_) ? std::numeric_limits<double>::max()
-                                       : (1 + solver_.settings_.start_margin) * least;
+    const double most = is_extreme(frame_) ? std::numeric_limits<double>::max()
+                                           : (1 + solver_.settings_.start_margin) * least;
     std::vector<Descent> descents;
     for (std::size_t i = 0; i < starts.size(); ++i) {
       if (!(std::isfinite(losses[i]) && losses[i] <= most))
