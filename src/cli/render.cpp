@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -32,7 +33,9 @@ using Clock = std::chrono::steady_clock;
 struct Arguments {
   std::string table, table_b;  // table_b empty: none
   std::optional<double> alpha_x, alpha_y;
+  std::vector<std::string> materials;  // "alpha_x,alpha_y" each
   double f0 = 1;
+  double light_size = 1;  // times that of figure 14
   SphereSettings settings;
   std::string output = "out";
   int threads = default_threads();
@@ -57,14 +60,35 @@ struct Results {
   std::vector<double> seconds;
 };
 
-// Those of figure 14 of Aakash et al. 2022, unless one is asked for.
+constexpr double least_alpha = 1e-4;
+
+// "0.3,0.05"; throws InputError for anything else.
+Material material_of(const std::string& text, double f0) {
+  double alpha_x = 0, alpha_y = 0;
+  int length = 0;
+  const int read = std::sscanf(text.c_str(), "%lf,%lf%n", &alpha_x, &alpha_y, &length);
+  const auto allowed = [](double alpha) { return alpha >= least_alpha && alpha <= 1; };
+  if (read != 2 || static_cast<std::size_t>(length) != text.size() || !allowed(alpha_x) ||
+      !allowed(alpha_y))
+    throw InputError(
+        fmt::format("--material {}: expected two roughnesses in [{}, 1], for example 0.3,0.05",
+                    text, least_alpha));
+  return {alpha_x, alpha_y, f0};
+}
+
+// Those of figure 14 of Aakash et al. 2022, unless others are asked for.
 std::vector<Material> materials_of(const Arguments& arguments) {
   if (arguments.alpha_x.has_value() != arguments.alpha_y.has_value())
     throw InputError(fmt::format("--alpha-{} without --alpha-{}; expected both or neither",
                                  arguments.alpha_x ? "x" : "y", arguments.alpha_x ? "y" : "x"));
   const double f0 = arguments.f0;
+  std::vector<Material> materials;
   if (arguments.alpha_x)
-    return {{*arguments.alpha_x, *arguments.alpha_y, f0}};
+    materials.push_back({*arguments.alpha_x, *arguments.alpha_y, f0});
+  for (const std::string& text : arguments.materials)
+    materials.push_back(material_of(text, f0));
+  if (!materials.empty())
+    return materials;
   return {{0.05, 0.25, f0}, {0.5, 0.02, f0}, {0.5, 0.25, f0}, {0.5, 1.0, f0}};
 }
 
@@ -102,12 +126,15 @@ Destination destination_of(const fs::path& output) {
 
 Results render_all(const Arguments& arguments, const std::vector<Material>& materials,
                    const Tables& tables, Progress& progress) {
+  SphereSettings settings = arguments.settings;
+  settings.scene.light.half_u *= arguments.light_size;
+  settings.scene.light.half_v *= arguments.light_size;
   Results results;
   for (const Material& material : materials) {
     const Clock::time_point began = Clock::now();
     const std::string stage = fmt::format("render {}, {}", material.alpha_x, material.alpha_y);
-    results.rows.push_back({material, render_sphere(tables.pointers(), material, arguments.settings,
-                                                    stage, arguments.threads, &progress)});
+    results.rows.push_back({material, render_sphere(tables.pointers(), material, settings, stage,
+                                                    arguments.threads, &progress)});
     results.seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
   }
   return results;
@@ -142,6 +169,7 @@ void write_images(const SphereRow& row, const Arguments& arguments, const fs::pa
       {"ltc:generator", generator()},
       {"ltc:material", fmt::format("alpha_x {}, alpha_y {}, F0 {}", material.alpha_x,
                                    material.alpha_y, material.f0)},
+      {"ltc:light_size", fmt::format("{}", arguments.light_size)},
       {"ltc:samples", fmt::format("{}", arguments.settings.samples)},
       {"ltc:table", arguments.table}};
   if (images.ltc.size() > 1) {
@@ -227,7 +255,7 @@ void render(const Arguments& arguments) {
 void add_number_option(CLI::App& app, const char* name, std::optional<double>& value,
                        const char* what) {
   app.add_option(name, value, what)
-      ->check(CLI::Range(1e-4, 1.0))
+      ->check(CLI::Range(least_alpha, 1.0))
       ->option_text("X")
       ->group("What to render");
 }
@@ -243,6 +271,16 @@ Action declare_render(CLI::App& app) {
                     "roughness along the parallels [the four materials of figure 14]");
   add_number_option(app, "--alpha-y", arguments->alpha_y,
                     "roughness along the meridians, together with --alpha-x");
+  app.add_option("--material", arguments->materials,
+                 "roughness along the parallels and along the meridians; can be repeated")
+      ->allow_extra_args(false)
+      ->option_text("X,Y")
+      ->group("What to render");
+  app.add_option("--light-size", arguments->light_size,
+                 "width and height of the light over those of figure 14 [1]")
+      ->check(CLI::Range(0.001, 2.0))
+      ->option_text("S")
+      ->group("What to render");
   app.add_option("--f0", arguments->f0, "reflectance at normal incidence, of Schlick's term [1]")
       ->check(CLI::Range(0.0, 1.0))
       ->option_text("X")

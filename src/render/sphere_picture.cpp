@@ -193,7 +193,7 @@ class Painter {
       if (content_.tables.size() > 1)
         line(content_.tables[table], false, 0.8);
       if (error.pixels > 0) {
-        line(fmt::format("mean |error| {:.4f}", error.mean_absolute), false, 0.8);
+        line(fmt::format("mean |error| {:.2g}", error.mean_absolute), false, 0.8);
         line(fmt::format("RMSE {:.1f} % of mean", 100 * error.relative_rmse), false, 0.8);
       }
       if (error.without > 0)

@@ -30,6 +30,8 @@ struct InvariantLimits {
   int albedo_points = 16384;       // of the fresh quadrature
   int samples = 2048;              // of a lobe, for stored loss and neighbours
   int directions = 16;             // that they are projected on
+
+  bool operator==(const InvariantLimits&) const = default;
 };
 
 struct InvariantResult {

@@ -18,6 +18,8 @@ struct QualityThresholds {
   double node_loss = 0.07;
   double query_loss = 0.13;
   double area_light_error = 0.026;
+
+  bool operator==(const QualityThresholds&) const = default;
 };
 
 struct ThresholdCheck {

@@ -52,6 +52,26 @@ TEST_F(Render, ComparesTwoTablesInOneMaterial) {
   EXPECT_NE(read_file(folder_ / "made/two_0.2_0.4.exr").find("difference_b.Y"), std::string::npos);
 }
 
+TEST_F(Render, TakesMaterialsAndTheSizeOfTheLight) {
+  const std::vector<std::string> two{"t.h5", "--material", "0.3,0.05", "--material", "0.2,1", "-o"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = two;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  };
+  with({"large"});
+  with({"same", "--light-size", "1"});
+  with({"small", "--light-size", "0.1"});
+  EXPECT_EQ(names_in(folder_ / "large"),
+            (std::vector<std::string>{"spheres.png", "spheres_0.2_1.exr", "spheres_0.3_0.05.exr"}));
+  const auto image = [&](const char* folder) {
+    return read_file(folder_ / folder / "spheres_0.3_0.05.exr");
+  };
+  EXPECT_EQ(image("large"), image("same"));
+  EXPECT_NE(image("large"), image("small"));
+}
+
 TEST_F(Render, WritesTheSameBytesWithAnyNumberOfThreads) {
   for (const char* threads : {"1", "3"})
     EXPECT_EQ(run({"t.h5", "--alpha-x", "0.3", "--alpha-y", "0.1", "-t", threads, "-o",
@@ -78,6 +98,9 @@ TEST_F(Render, RefusesBadInputInOneLineAndWritesNothing) {
     expect_one_line(result.err.substr(begin, result.err.size() - begin - 1), parts);
     EXPECT_EQ(names_in(folder_.path()), before);
   };
+  for (const char* material : {"0.3", "0.3,", "0.3,0.05,1", "0.3,2", "0.3,nan", "x,0.1"})
+    expect_refusal({"t.h5", "--material", material}, 2, {"--material", material, "[0.0001, 1]"});
+  expect_refusal({"t.h5", "--light-size", "0"}, 2, {"--light-size", "0"});
   expect_refusal({}, 2, {"TABLE"});
   expect_refusal({"missing.h5"}, 3, {"missing.h5"});
   expect_refusal({"no.h5"}, 2, {"no.h5"});

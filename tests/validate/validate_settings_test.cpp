@@ -36,6 +36,22 @@ TEST(ValidateSettings, TheShippedFileSaysEveryKeyWithItsDefault) {
   EXPECT_NO_THROW(load_validate_settings(shipped, {}));
 }
 
+// What the program demands of refined tables is what the file says.
+TEST(ValidateSettings, ThoseOfRefinedTablesAreThoseOfTheirFile) {
+  const auto of_refined = shipped.parent_path() / "validate-refined.toml";
+  const ValidateSettings read = load_validate_settings(of_refined, {});
+  const ValidateSettings built_in = settings_for_refined_tables();
+  EXPECT_EQ(read.invariants, built_in.invariants);
+  EXPECT_EQ(read.thresholds, built_in.thresholds);
+  EXPECT_NE(built_in.invariants, InvariantLimits{});
+  EXPECT_NE(built_in.thresholds, QualityThresholds{});
+  // A file for a refined table needs only what differs from them.
+  const std::vector<std::string> overrides = {"quality.query_loss=0.09"};
+  const ValidateSettings changed = load_validate_settings({}, overrides, built_in);
+  EXPECT_EQ(changed.thresholds.query_loss, 0.09);
+  EXPECT_EQ(changed.invariants, built_in.invariants);
+}
+
 TEST(ValidateSettings, FilesAndThenOverridesSetKeys) {
   const TemporaryDirectory folder;
   const auto file = folder.write("v.toml",
