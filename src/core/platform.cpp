@@ -92,6 +92,15 @@ void limit_memory(std::size_t beyond_now) {
     limit(RLIMIT_AS, pages_now * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + beyond_now);
 }
 
+// Closes all but the standard ones and `kept`, and returns what that one is called from then on.
+int keep_open_only(int kept) {
+  constexpr int first = STDERR_FILENO + 1;
+  if (kept != first)
+    ::dup2(kept, first);
+  ::close_range(first + 1, ~0U, 0);
+  return first;
+}
+
 bool write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
@@ -123,6 +132,8 @@ std::string read_all(int descriptor) {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(nowhere, STDERR_FILENO);
+  // A lock that the copy shares would be held until its end, even where this process is killed.
+  result = keep_open_only(result);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.processor_seconds);
   limit_memory(limits.memory_bytes);

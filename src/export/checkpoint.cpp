@@ -11,6 +11,7 @@
 #include "core/version.h"
 #include "core/write_file.h"
 #include "export/hdf5_file.h"
+#include "export/hdf5_guard.h"
 
 namespace ltc {
 namespace {
@@ -117,8 +118,8 @@ void write_checkpoint(const Config& config, const std::vector<bool>& needed,
   write_file(path, file.finish());
 }
 
-FinishedFits read_checkpoint(const Config& config, const std::vector<bool>& needed,
-                             const fs::path& path) {
+FinishedFits read_checkpoint_unguarded(const Config& config, const std::vector<bool>& needed,
+                                       const fs::path& path) {
   const Hdf5Input file(path);
   require_format(file, path);
   require_same_run(file, config, needed, path);
@@ -135,6 +136,12 @@ FinishedFits read_checkpoint(const Config& config, const std::vector<bool>& need
       entries.push_back(entry_of(arrays, round * nodes + flat, path));
   }
   return fits;
+}
+
+FinishedFits read_checkpoint(const Config& config, const std::vector<bool>& needed,
+                             const fs::path& path) {
+  require_harmless(path, [&] { read_checkpoint_unguarded(config, needed, path); });
+  return read_checkpoint_unguarded(config, needed, path);
 }
 
 }  // namespace ltc

@@ -314,7 +314,10 @@ Hdf5Output::Hdf5Output(std::string shown_as)
   H5Pset_file_image_callbacks(access.id(), &callbacks);
   // The format of HDF5 1.8, which every reader of today knows: its metadata carry checksums.
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  file_ = checked({H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose},
+  // A name that no file can have: of a file that is there, the library would first read all bytes,
+  // into memory that it expects these callbacks to free.
+  const std::string no_file = name_ + "/";
+  file_ = checked({H5Fcreate(no_file.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose},
                   "the file cannot be created");
 }
 

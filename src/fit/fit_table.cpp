@@ -50,10 +50,6 @@ std::vector<FitStep>* trace_of(FitWatch* watch, std::size_t flat) {
 
 }  // namespace
 
-int sweep_count(const FitSettings& settings) {
-  return settings.solver == SolverKind::gauss_newton ? settings.gauss_newton.neighbour_sweeps : 0;
-}
-
 std::vector<std::size_t> neighbours_of(const Grid& grid, std::size_t flat) {
   std::vector<std::size_t> neighbours;
   const NodeIndex node = grid.node(flat);

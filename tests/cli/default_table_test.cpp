@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -20,6 +21,7 @@
 #include "fit/solver.h"
 #include "support/broken_table.h"
 #include "support/program.h"
+#include "support/sanitizer.h"
 #include "support/table_faults.h"
 #include "table/lookup.h"
 #include "table/queries.h"
@@ -44,7 +46,11 @@ void expect_summary(const std::string& out) {
   ASSERT_NE(memory, std::string::npos) << out;
   const double megabytes = std::strtod(out.c_str() + memory + 9, nullptr);
   EXPECT_GT(megabytes, 1) << out;
-  EXPECT_LT(megabytes, 200) << out;  // what the project promises
+  if (under_sanitizer)
+    std::cout << "not checked, for a sanitizer's memory counts too: " << megabytes
+              << " MB < 200 MB\n";
+  else
+    EXPECT_LT(megabytes, 200) << out;  // what the project promises
   // Fits keep the zeros of equation (16); what rounding leaves of them is set to zero.
   const std::size_t zeroed = out.find("largest value zeroed ");
   ASSERT_NE(zeroed, std::string::npos) << out;

@@ -5,6 +5,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include "core/error.h"
@@ -45,6 +47,23 @@ TEST(ProcessApart, ACrashIsNothingAndNothingIsPrinted) {
                 []() -> std::string { throw std::runtime_error("unexpected"); }, generous),
             std::nullopt);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+// Else the lock of a run that is killed while it reads a checkpoint would outlive it.
+TEST(ProcessApart, HasNoneOfThisProcessesOpenFiles) {
+  const test::TemporaryDirectory folder;
+  const auto path = folder.write("open", "any");
+  const auto opened_here = [&path] {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+      std::error_code gone;
+      if (std::filesystem::read_symlink(entry.path(), gone) == path)
+        return std::string("yes");
+    }
+    return std::string("no");
+  };
+  const std::ifstream file(path);
+  EXPECT_EQ(opened_here(), "yes");
+  EXPECT_EQ(platform::in_a_process_apart(opened_here, generous), "no");
 }
 
 TEST(ProcessApart, EndlessWorkAndEndlessMemoryEnd) {

@@ -111,6 +111,23 @@ TEST(CheckpointRefused, WhatIsNoCheckpoint) {
   EXPECT_THROW(read_checkpoint(config_with(), all_needed, folder / "none.h5"), IoError);
 }
 
+// What crashed the library as a table: some of these crash it before it can say what they are of.
+TEST(CheckpointRefused, WhatTheLibraryCannotCopeWith) {
+  const std::filesystem::path crashers = LTCFIT_SOURCE_DIR "/tests/fuzz/crashers/hdf5";
+  int files = 0;
+  for (const auto& crasher : std::filesystem::directory_iterator(crashers)) {
+    SCOPED_TRACE(crasher.path());
+    const TemporaryDirectory folder;
+    folder.write("c.h5", test::read_file(crasher.path()));
+    expect_refused(folder, config_with(), all_needed, {});
+    ++files;
+  }
+  EXPECT_GE(files, 6);
+  const TemporaryDirectory folder;  // a null pointer, wherever the library runs
+  folder.write("c.h5", test::read_file(crashers / "object_of_a_fractal_heap.h5"));
+  expect_refused(folder, config_with(), all_needed, {"damaged: the HDF5 library"});
+}
+
 // Opens the file, changes it, closes it.
 void change(const std::filesystem::path& path, const std::function<void(hid_t)>& changes) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);

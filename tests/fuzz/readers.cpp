@@ -3,11 +3,14 @@
 #include "fuzz/readers.h"
 
 #include <fstream>
+#include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "config/config.h"
 #include "core/error.h"
+#include "export/checkpoint.h"
 #include "export/consistency.h"
 #include "export/exr.h"
 #include "export/hdf5.h"
@@ -60,6 +63,25 @@ void read_unguarded_h5_bytes(const fs::path& folder, std::string_view bytes) {
   use(read_hdf5_unguarded(path), path);
 }
 
+// The run that the checkpoints are of: two rounds of sixteen entries.
+const Config& checkpointed_config() {
+  static const std::vector<std::string> overrides = {"table.alpha.nodes=2", "table.lambda.nodes=2",
+                                                     "table.theta.nodes=2", "table.phi.nodes=2",
+                                                     "fit.gauss_newton.neighbour_sweeps=1"};
+  static const Config config = load_config(std::nullopt, overrides);
+  return config;
+}
+
+const std::vector<bool> checkpointed_entries(16, true);
+
+template <auto read_as_checkpoint>
+void read_checkpoint_bytes(const fs::path& folder, std::string_view bytes) {
+  const fs::path path = written(folder / "checkpoint.h5", bytes);
+  const FinishedFits fits = read_as_checkpoint(checkpointed_config(), checkpointed_entries, path);
+  if (fits.rounds.size() != 2 || fits.rounds[1].size() != checkpointed_entries.size())
+    throw std::logic_error("a checkpoint of nothing");
+}
+
 // The bytes are the first of the three files; the others are those of a good table.
 void read_exr_bytes(const fs::path& folder, std::string_view bytes) {
   const fs::path prefix = folder / "table";
@@ -89,6 +111,25 @@ void read_gltf_bytes(const fs::path& folder, std::string_view bytes) {
 const Reader& unguarded_hdf5_reader() {
   static const Reader reader = {"unguarded_hdf5", read_unguarded_h5_bytes};
   return reader;
+}
+
+const Reader& checkpoint_reader() {
+  static const Reader reader = {"checkpoint", read_checkpoint_bytes<read_checkpoint>};
+  return reader;
+}
+
+const Reader& unguarded_checkpoint_reader() {
+  static const Reader reader = {"unguarded_checkpoint",
+                                read_checkpoint_bytes<read_checkpoint_unguarded>};
+  return reader;
+}
+
+std::string good_checkpoint(const fs::path& folder) {
+  FinishedFits fits;
+  fits.rounds.assign(2, std::vector<FittedEntry>(checkpointed_entries.size()));
+  write_checkpoint(checkpointed_config(), checkpointed_entries, fits, folder / "good.h5");
+  std::ifstream file(folder / "good.h5", std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 const std::vector<Reader>& readers() {

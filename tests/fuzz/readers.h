@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,6 +22,12 @@ const std::vector<Reader>& readers();
 
 // The HDF5 reader without its guard, which the library crashes with some files.
 const Reader& unguarded_hdf5_reader();
+
+// The reader of checkpoints, with and without its guard. It has no seeds among the files: a
+// checkpoint is for one build of the program. The last makes one that is accepted.
+const Reader& checkpoint_reader();
+const Reader& unguarded_checkpoint_reader();
+std::string good_checkpoint(const std::filesystem::path& folder);
 
 // True if the bytes were accepted, false if they were refused as documented; all other exceptions
 // pass.

@@ -86,6 +86,31 @@ TEST(FuzzReaders, OtherErrorsThanTheDocumentedOnesAreNotTakenForARefusal) {
   EXPECT_FALSE(fuzz::accepts(faulty, folder.path(), ""));
 }
 
+// Their metadata changed and its checksums made right, byte after byte, and files cut short.
+TEST(FuzzCheckpoint, ChangedOnesAreReadOrRefused) {
+  const test::TemporaryDirectory folder;
+  const std::string good = fuzz::good_checkpoint(folder.path());
+  EXPECT_TRUE(fuzz::accepts(fuzz::checkpoint_reader(), folder.path(), good));
+  const std::vector<std::uint8_t> file(good.begin(), good.end());
+  const auto blocks = fuzz::checksummed_blocks(file);
+  EXPECT_GE(blocks.size(), 7u);  // the superblock and the headers of two groups, five datasets
+  int refused = 0, tried = 0;
+  for (const auto& [begin, length] : blocks)
+    for (std::size_t i = begin + 4; i < begin + length; i += 17, ++tried) {
+      std::vector<std::uint8_t> changed = file;
+      changed[i] ^= 0x81;
+      fuzz::renew_checksums(blocks, changed);
+      const std::string bytes(changed.begin(), changed.end());
+      bool accepted = true;
+      EXPECT_NO_THROW(accepted = fuzz::accepts(fuzz::checkpoint_reader(), folder.path(), bytes))
+          << i;
+      refused += !accepted;
+      EXPECT_FALSE(fuzz::accepts(fuzz::checkpoint_reader(), folder.path(), good.substr(0, i)));
+    }
+  EXPECT_GE(tried, 50);
+  EXPECT_GE(refused, tried / 4);  // most bytes of metadata mean something
+}
+
 // The fuzzer of HDF5 gets nowhere without them: the published test vectors of lookup3, and a file
 // whose change goes unnoticed once its checksum is made right.
 TEST(FuzzChecksums, AreThoseOfHdf5) {

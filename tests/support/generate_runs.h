@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -20,7 +19,7 @@ namespace ltc::test::runs {
 using Arguments = std::vector<std::string>;
 using Files = std::map<std::string, std::string>;  // name and bytes
 
-inline constexpr std::chrono::seconds limit{60};
+inline constexpr std::chrono::seconds limit = patience;
 inline const std::string checkpoint = "ltc.checkpoint.h5";
 
 inline Arguments operator+(Arguments first, const Arguments& second) {
@@ -42,17 +41,17 @@ inline Arguments generate(const Arguments& more, const std::string& output = "."
          more;
 }
 
-// Seconds of work, most of it in the entries' own fits, some in three sweeps.
+// Half a second of work, most of it in the entries' own fits, some in three sweeps.
 inline const Arguments with_sweeps =
     grid_of("3") + Arguments{"--config",  LTCFIT_SOURCE_DIR "/config/reference.toml",
-                             "--set",     "fit.gauss_newton.samples=4096",
-                             "--set",     "fit.gauss_newton.directions=64",
-                             "--set",     "fit.gauss_newton.target_samples=32768",
+                             "--set",     "fit.gauss_newton.samples=2048",
+                             "--set",     "fit.gauss_newton.directions=32",
+                             "--set",     "fit.gauss_newton.target_samples=8192",
                              "--threads", "1"};
-// A second of work by the stochastic solver.
+// Half a second of work by the stochastic solver.
 inline const Arguments stochastic =
     grid_of("3") + Arguments{"--config",  LTCFIT_SOURCE_DIR "/config/sgd.toml",
-                             "--set",     "fit.sgd.steps=150",
+                             "--set",     "fit.sgd.steps=75",
                              "--threads", "1"};
 // Sixteen entries in no time, and sixteen that would take hours.
 inline const Arguments tiny = grid_of("2") + Arguments{"--set", "fit.gauss_newton.steps=2"};

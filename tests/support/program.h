@@ -16,6 +16,10 @@
 
 namespace ltc::test {
 
+// How long tests wait for what should happen: so long that only a hang comes to its end, on a busy
+// machine and with sanitizers too.
+inline constexpr std::chrono::seconds patience{600};
+
 struct ProgramResult {
   int exit_code = -1;  // 128 + the signal's number if a signal ended the program
   std::string out;     // standard output
@@ -57,7 +61,7 @@ class RunningProgram {
 // Runs a program to its end.
 ProgramResult run_program(const std::vector<std::string>& command,
                           const std::filesystem::path& folder = {},
-                          std::chrono::seconds limit = std::chrono::seconds(120));
+                          std::chrono::seconds limit = patience);
 
 // Runs the ltcfit of this build with the given arguments.
 ProgramResult run_ltcfit(std::vector<std::string> arguments,

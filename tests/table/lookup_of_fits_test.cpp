@@ -5,18 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <numbers>
 
 #include "fit/lobes.h"
 #include "fit/solver.h"
 #include "pipeline/generate.h"
+#include "table/folding.h"
 #include "table/lookup.h"
 #include "validate/held_out.h"
 
 namespace ltc {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Sixteen anisotropic lobes away from every symmetry, each of which all wrong folds change.
 Config config_of(Storage storage) {
@@ -28,19 +26,6 @@ Config config_of(Storage storage) {
   config.grid.phi = Axis::make(0.4, 1.1, 2, Warp::linear);
   config.refine.steps = 0;
   return config;
-}
-
-// The lobes that fold to a node.
-std::vector<GgxLobe> queries_of(const GgxLobe& node) {
-  const auto [alpha, smaller, theta, phi] = node;
-  return {{alpha, smaller, theta, phi},
-          {alpha, smaller, theta, pi - phi},
-          {alpha, smaller, theta, pi + phi},
-          {alpha, smaller, theta, 2 * pi - phi},
-          {smaller, alpha, theta, pi / 2 - phi},
-          {smaller, alpha, theta, pi / 2 + phi},
-          {smaller, alpha, theta, 3 * pi / 2 - phi},
-          {smaller, alpha, theta, 3 * pi / 2 + phi}};
 }
 
 // A query, what a fit of its own comes to, and what is found in a table.
@@ -63,7 +48,7 @@ void expect_found(const Case& c, const Table& table) {
 void expect_others_wrong(const Case& c, const Table& table) {
   const Eigen::Matrix3d unfold = fold(c.query).unfold;
   const Eigen::Matrix3d folded = unfold.inverse() * look_up(table, c.query).matrix;
-  for (const GgxLobe& other : queries_of(c.node)) {
+  for (const GgxLobe& other : testing::lobes_that_fold_to(c.node)) {
     const Eigen::Matrix3d wrong = fold(other).unfold;
     if (wrong == unfold)
       continue;
@@ -80,7 +65,7 @@ TEST(LookUpOfFits, IsAsNearAsADirectFitInEveryQuadrantAndBothRoughnessOrders) {
   HeldOutJudge judge(4096, 32);
   for (std::size_t flat = 0; flat < matrices.grid.size(); ++flat) {
     const GgxLobe node = matrices.grid.lobe(matrices.grid.node(flat));
-    for (const GgxLobe& query : queries_of(node)) {
+    for (const GgxLobe& query : testing::lobes_that_fold_to(node)) {
       judge.set_lobe(query);
       FitRequest request;
       request.lobe = query;

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "table/folding.h"
 #include "table/synthetic.h"
 
 namespace ltc {
@@ -166,16 +167,9 @@ TEST(LookUp, ExactAtNodesInEveryQuadrantAndBothRoughnessOrders) {
         const NodeIndex node = grid.node(i);
         const double alpha = grid.alpha.nodes[node.alpha];
         const double smaller = grid.lambda.nodes[node.lambda] * alpha;
-        const double theta = grid.theta.nodes[node.theta], phi = grid.phi.nodes[node.phi];
-        const GgxLobe queries[] = {{alpha, smaller, theta, phi},
-                                   {alpha, smaller, theta, pi - phi},
-                                   {alpha, smaller, theta, pi + phi},
-                                   {alpha, smaller, theta, 2 * pi - phi},
-                                   {smaller, alpha, theta, pi / 2 - phi},
-                                   {smaller, alpha, theta, pi / 2 + phi},
-                                   {smaller, alpha, theta, 3 * pi / 2 - phi},
-                                   {smaller, alpha, theta, 3 * pi / 2 + phi}};
-        for (const GgxLobe& query : queries) {
+        const GgxLobe folded{alpha, smaller, grid.theta.nodes[node.theta],
+                             grid.phi.nodes[node.phi]};
+        for (const GgxLobe& query : testing::lobes_that_fold_to(folded)) {
           const LookUp found = look_up(table, query);
           GgxLobe bounded = query;
           bounded.alpha_x = std::max(query.alpha_x, grid.alpha_min);

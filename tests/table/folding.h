@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The lobes that a look-up folds to one and the same node.
+#pragma once
+
+#include <array>
+#include <numbers>
+
+#include "brdf/ggx.h"
+
+namespace ltc::testing {
+
+// Equations (13) to (15): the node itself, alpha_x >= alpha_y and phi in [0, pi/2], in all four
+// quadrants, then each with its roughnesses swapped.
+inline std::array<GgxLobe, 8> lobes_that_fold_to(const GgxLobe& node) {
+  constexpr double pi = std::numbers::pi;
+  const auto [alpha, smaller, theta, phi] = node;
+  return {{{alpha, smaller, theta, phi},
+           {alpha, smaller, theta, pi - phi},
+           {alpha, smaller, theta, pi + phi},
+           {alpha, smaller, theta, 2 * pi - phi},
+           {smaller, alpha, theta, pi / 2 - phi},
+           {smaller, alpha, theta, pi / 2 + phi},
+           {smaller, alpha, theta, 3 * pi / 2 - phi},
+           {smaller, alpha, theta, 3 * pi / 2 + phi}}};
+}
+
+}  // namespace ltc::testing
