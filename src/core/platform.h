@@ -81,9 +81,10 @@ struct WorkLimits {
 };
 
 // The text that `work` returns, worked out in a copy of this process, which nothing that becomes of
-// the copy can harm; it has none of this process's open files and locks. Nothing if the copy crashed, threw, or went beyond a limit; what it says on
-// standard output and standard error is thrown away. Not while other threads hold locks that `work`
-// takes. Throws IoError if the system refuses a process.
+// the copy can harm; it has none of this process's open files and locks. Nothing if the copy
+// crashed, threw, or went beyond a limit; what it says on standard output and standard error is
+// thrown away. Not while other threads hold locks that `work` takes. Throws IoError if the system
+// refuses a process.
 std::optional<std::string> in_a_process_apart(const std::function<std::string()>& work,
                                               const WorkLimits& limits);
 
