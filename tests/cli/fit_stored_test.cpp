@@ -40,7 +40,7 @@ class FitAsIn : public ::testing::Test {
     folder_ = nullptr;
   }
   static void generate(std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"generate"};
+    std::vector<std::string> arguments = {"generate", "--set", "refine.steps=0"};
     const std::vector<std::string> grid = grid_of("3");
     arguments.insert(arguments.end(), grid.begin(), grid.end());
     arguments.insert(arguments.end(), more.begin(), more.end());
