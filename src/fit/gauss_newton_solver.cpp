@@ -50,11 +50,12 @@ bool first_order_is_exact(const LobeFrame& frame) {
   return first_order_error(frame) < exact_first_order;
 }
 
-// P0 is so near to the lobe that what an LTC misses of it is less than the noise of equally
+// Sharp lobes that P0 is near to: what an LTC misses of them is less than the noise of equally
 // weighted samples, most of which is in the tails.
-constexpr double nearly_exact_first_order = 0.14;
-bool first_order_is_nearly_exact(const LobeFrame& frame) {
-  return first_order_error(frame) < nearly_exact_first_order;
+constexpr double sharp_alpha = 0.1, near_first_order = 1;
+bool first_order_is_near(const LobeFrame& frame) {
+  return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < sharp_alpha &&
+         first_order_error(frame) < near_first_order;
 }
 
 // What no table asks for by default: thinner than alpha_min, or nearer to the horizon than its last
@@ -172,8 +173,7 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
 }
 
 const GaussNewtonSolver::Ladder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
-  return target_kind_ == TargetKind::weighted &&
-                 (is_extreme(frame) || first_order_is_nearly_exact(frame))
+  return target_kind_ == TargetKind::weighted && (is_extreme(frame) || first_order_is_near(frame))
              ? graded_
              : usual_;
 }
@@ -197,10 +197,9 @@ void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed, L
 std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& frame,
                                                            std::uint64_t seed,
                                                            const FitWorkspace& workspace) const {
-  const int count =
-      std::max(settings_.starts, is_extreme(frame)                    ? starts_at_extremes
-                                 : first_order_is_nearly_exact(frame) ? starts_of_sharp
-                                                                      : 1);
+  const int count = std::max(settings_.starts, is_extreme(frame)            ? starts_at_extremes
+                                               : first_order_is_near(frame) ? starts_of_sharp
+                                                                            : 1);
   std::vector<Eigen::Matrix3d> starts = {moment_start(frame, workspace.target),
                                          first_order_start(frame), identity_start(frame)};
   for (int i = 3; i < count; ++i)

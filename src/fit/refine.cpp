@@ -67,16 +67,29 @@ std::vector<GgxLobe> lobes_of_nodes(const Grid& grid, const std::vector<bool>& h
   return lobes;
 }
 
-std::size_t cell_count(const Grid& grid) {
-  std::size_t cells = 1;
-  for (const std::size_t nodes : grid.shape())
-    cells *= std::max<std::size_t>(nodes - 1, 1);
+// The cells that can be asked: each counts at its first node, the one with a next node that has
+// values, or none before, along every axis.
+std::size_t cell_count(const Grid& grid, const std::vector<bool>& has_values) {
+  const auto shape = grid.shape();
+  const std::array<std::size_t, 4> stride{shape[1] * shape[2] * shape[3], shape[2] * shape[3],
+                                          shape[3], 1};
+  std::size_t cells = 0;
+  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    const NodeIndex node = grid.node(flat);
+    const std::array<std::size_t, 4> index{node.alpha, node.lambda, node.theta, node.phi};
+    bool first = has_values[flat];
+    for (std::size_t axis = 0; axis < 4 && first; ++axis)
+      first = (index[axis] + 1 < shape[axis] && has_values[flat + stride[axis]]) ||
+              index[axis] == 0 || !has_values[flat - stride[axis]];
+    cells += first;
+  }
   return cells;
 }
 
 Queries queries_to_refine_on(const Grid& grid, const std::vector<bool>& has_values,
                              const std::vector<QueryRange>& asked, const RefineSettings& settings) {
-  const auto count = cell_count(grid) * static_cast<std::size_t>(settings.queries_per_cell);
+  const auto count =
+      cell_count(grid, has_values) * static_cast<std::size_t>(settings.queries_per_cell);
   const auto of_table = static_cast<std::size_t>(settings.table_share * static_cast<double>(count));
   const double free_weight = 1 - settings.node_weight;
   Queries queries;
@@ -90,10 +103,12 @@ Queries queries_to_refine_on(const Grid& grid, const std::vector<bool>& has_valu
   return queries;
 }
 
+// No more than there are queries to refine on: a small part of a table is not judged for longer
+// than it is refined.
 Queries queries_held_out(const Grid& grid, const std::vector<QueryRange>& asked,
-                         const RefineSettings& settings) {
+                         const RefineSettings& settings, std::size_t most) {
   Queries queries;
-  queries.add(from_all(asked, static_cast<std::size_t>(settings.held_out_queries),
+  queries.add(from_all(asked, std::min(static_cast<std::size_t>(settings.held_out_queries), most),
                        [&](const QueryRange& range, std::size_t part, std::size_t i) {
                          return random_queries(range, part, held_out_seed + i, grid.alpha_min);
                        }),
@@ -108,7 +123,7 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
                     const RefineSettings& settings, int threads, Progress* progress,
                     std::vector<Eigen::Matrix3d>& stored) {
   const Queries refined_on = queries_to_refine_on(grid, has_values, asked, settings);
-  const Queries held_out = queries_held_out(grid, asked, settings);
+  const Queries held_out = queries_held_out(grid, asked, settings, refined_on.lobes.size());
   QuerySystem queries(grid, storage, has_values, refined_on.lobes, refined_on.weights,
                       settings.sampling, refined_shift);
   QuerySystem judge(grid, storage, has_values, held_out.lobes, held_out.weights, settings.sampling,

@@ -74,7 +74,7 @@ ValidateSettings settings_for_refined_tables() {
   ValidateSettings settings;
   settings.invariants.alignment_degrees = 180;
   settings.invariants.inverse_error = 0.1;
-  settings.invariants.neighbour_excess = 4;
+  settings.invariants.neighbour_excess = 10;
   settings.invariants.neighbour_slack = 0.05;
   settings.thresholds = {5, 0.1, 0.018};
   return settings;
