@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -278,7 +279,10 @@ Action declare_render(CLI::App& app) {
       ->group("What to render");
   app.add_option("--light-size", arguments->light_size,
                  "width and height of the light over those of figure 14 [1]")
-      ->check(CLI::Range(0.001, 2.0))
+      ->check([](const std::string& text) {
+        const double size = std::strtod(text.c_str(), nullptr);  // Range lets NaN pass
+        return std::string(size >= 0.001 && size <= 2 ? "" : text + " is not in [0.001, 2]");
+      })
       ->option_text("S")
       ->group("What to render");
   app.add_option("--f0", arguments->f0, "reflectance at normal incidence, of Schlick's term [1]")

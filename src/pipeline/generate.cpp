@@ -142,7 +142,7 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
   finish_stage("align");
   post_process_all(config.grid, entries, table, result);
   finish_stage("post-process");
-  if (config.refine.steps > 0) {
+  if (config.refine.steps > 0 && result.fits > 0) {
     result.refine = refine_nodes(config, context, threads, progress, table);
     finish_stage("refine");
   }

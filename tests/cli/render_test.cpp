@@ -100,7 +100,8 @@ TEST_F(Render, RefusesBadInputInOneLineAndWritesNothing) {
   };
   for (const char* material : {"0.3", "0.3,", "0.3,0.05,1", "0.3,2", "0.3,nan", "x,0.1"})
     expect_refusal({"t.h5", "--material", material}, 2, {"--material", material, "[0.0001, 1]"});
-  expect_refusal({"t.h5", "--light-size", "0"}, 2, {"--light-size", "0"});
+  for (const char* size : {"0", "nan", "3"})
+    expect_refusal({"t.h5", "--light-size", size}, 2, {"--light-size", size, "[0.001, 2]"});
   expect_refusal({}, 2, {"TABLE"});
   expect_refusal({"missing.h5"}, 3, {"missing.h5"});
   expect_refusal({"no.h5"}, 2, {"no.h5"});
