@@ -174,6 +174,13 @@ FileSet::~FileSet() {
 }
 
 void FileSet::add(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  std::error_code ignored;
+  const fs::file_type kind = fs::status(path, ignored).type();
+  // A device or a pipe would be replaced by a file, which is never what is meant.
+  if (kind == fs::file_type::character || kind == fs::file_type::block ||
+      kind == fs::file_type::fifo || kind == fs::file_type::socket)
+    throw IoError(fmt::format(
+        "cannot write {}: it is a device or a pipe; expected the name of a file", path.string()));
   const File file{temporary_beside(path), path};
   try {
     write(file.temporary);
@@ -221,9 +228,10 @@ FolderLock::FolderLock(const fs::path& folder)
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
     return;
   ::close(descriptor_);
-  throw IoError(fmt::format("another run is working in output folder {}; wait for it, or name "
-                            "another folder",
-                            folder.string()));
+  throw IoError(
+      fmt::format("another run is working in output folder {}; wait for it, or name "
+                  "another folder",
+                  folder.string()));
 }
 
 FolderLock::~FolderLock() {
@@ -240,7 +248,8 @@ void require_writable_folder(const fs::path& folder) {
     throw IoError(fmt::format("output folder {} is a file; name a folder", folder.string()));
   fs::create_directories(folder, error);
   if (error)
-    throw IoError(fmt::format("cannot create output folder {}: {}", folder.string(), error.message()));
+    throw IoError(
+        fmt::format("cannot create output folder {}: {}", folder.string(), error.message()));
   remove_abandoned_temporaries(folder / "probe");
   const fs::path probe = temporary_beside(folder / "probe");
   const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
@@ -260,7 +269,9 @@ void on_interrupt(void (*handler)()) {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-bool standard_error_is_terminal() { return ::isatty(STDERR_FILENO) != 0; }
+bool standard_error_is_terminal() {
+  return ::isatty(STDERR_FILENO) != 0;
+}
 
 std::size_t terminal_columns() {
   winsize size{};

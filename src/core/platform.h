@@ -23,7 +23,8 @@ class FileSet {
   FileSet& operator=(const FileSet&) = delete;
 
   // Calls `write` with the name of a temporary file in the same folder as `path` and flushes what
-  // it wrote to the disk. Throws IoError on what the system refuses; lets `write`'s own exceptions
+  // it wrote to the disk. Throws IoError on what the system refuses and for a `path` that is a
+  // device or a pipe; lets `write`'s own exceptions
   // through; the temporary file is then gone.
   void add(const std::filesystem::path& path,
            const std::function<void(const std::filesystem::path&)>& write);

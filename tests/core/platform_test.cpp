@@ -4,6 +4,7 @@
 #include "core/platform.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <optional>
@@ -50,6 +51,18 @@ TEST(FileSet, LeavesTheOlderSetWholeWhereALaterFileFails) {
   EXPECT_EQ(names_in(folder.path()), (Names{"a", "b"}));
   EXPECT_EQ(read_file(folder / "a"), "old a");
   EXPECT_EQ(read_file(folder / "b"), "old b");
+}
+
+TEST(FileSet, DevicesAndPipesAreNotReplaced) {
+  const TemporaryDirectory folder;
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink(pipe, folder / "link");
+  for (const char* name : {"pipe", "link"})
+    test::expect_one_line(message_of<IoError>([&] { write_file(folder / name, "x"); }),
+                          {"cannot write", (folder / name).string(), "a device or a pipe"});
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(names_in(folder.path()), (Names{"link", "pipe"}));
 }
 
 TEST(FileSet, RefusedNamesAndVanishedFoldersAreErrors) {
