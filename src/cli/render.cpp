@@ -64,7 +64,7 @@ struct Results {
 constexpr double least_alpha = 1e-4;
 
 // "0.3,0.05"; throws InputError for anything else.
-Material material_of(const std::string& text, double f0) {
+SphereMaterial material_of(const std::string& text, double f0) {
   double alpha_x = 0, alpha_y = 0;
   int length = 0;
   const int read = std::sscanf(text.c_str(), "%lf,%lf%n", &alpha_x, &alpha_y, &length);
@@ -78,12 +78,12 @@ Material material_of(const std::string& text, double f0) {
 }
 
 // Those of figure 14 of Aakash et al. 2022, unless others are asked for.
-std::vector<Material> materials_of(const Arguments& arguments) {
+std::vector<SphereMaterial> materials_of(const Arguments& arguments) {
   if (arguments.alpha_x.has_value() != arguments.alpha_y.has_value())
     throw InputError(fmt::format("--alpha-{} without --alpha-{}; expected both or neither",
                                  arguments.alpha_x ? "x" : "y", arguments.alpha_x ? "y" : "x"));
   const double f0 = arguments.f0;
-  std::vector<Material> materials;
+  std::vector<SphereMaterial> materials;
   if (arguments.alpha_x)
     materials.push_back({*arguments.alpha_x, *arguments.alpha_y, f0});
   for (const std::string& text : arguments.materials)
@@ -113,7 +113,7 @@ struct Destination {
   std::string stem;
 
   fs::path picture() const { return folder / (stem + ".png"); }
-  fs::path images(const Material& material) const {
+  fs::path images(const SphereMaterial& material) const {
     return folder / fmt::format("{}_{}_{}.exr", stem, material.alpha_x, material.alpha_y);
   }
 };
@@ -125,13 +125,13 @@ Destination destination_of(const fs::path& output) {
   return {folder.empty() ? fs::path(".") : folder, output.stem().string()};
 }
 
-Results render_all(const Arguments& arguments, const std::vector<Material>& materials,
+Results render_all(const Arguments& arguments, const std::vector<SphereMaterial>& materials,
                    const Tables& tables, Progress& progress) {
   SphereSettings settings = arguments.settings;
   settings.scene.light.half_u *= arguments.light_size;
   settings.scene.light.half_v *= arguments.light_size;
   Results results;
-  for (const Material& material : materials) {
+  for (const SphereMaterial& material : materials) {
     const Clock::time_point began = Clock::now();
     const std::string stage = fmt::format("render {}, {}", material.alpha_x, material.alpha_y);
     results.rows.push_back({material, render_sphere(tables.pointers(), material, settings, stage,
@@ -157,7 +157,7 @@ void require_some_entries(const Results& results, const Tables& tables) {
 
 void write_images(const SphereRow& row, const Arguments& arguments, const fs::path& path) {
   const SphereImages& images = row.images;
-  const Material& material = row.material;
+  const SphereMaterial& material = row.material;
   std::vector<picture::Field> differences;
   for (std::size_t table = 0; table < images.ltc.size(); ++table)
     differences.push_back(difference(images, table));
@@ -232,7 +232,7 @@ SpherePicture picture_of(const Arguments& arguments, const Tables& tables, Resul
 void render(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
-  const std::vector<Material> materials = materials_of(arguments);
+  const std::vector<SphereMaterial> materials = materials_of(arguments);
   const Tables tables = load_tables(arguments);
   const Destination destination = destination_of(arguments.output);
   const OutputFolder folder(destination.folder);

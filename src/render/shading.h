@@ -13,11 +13,11 @@
 
 namespace ltc {
 
-struct Material {
+struct SphereMaterial {
   double alpha_x = 0.5, alpha_y = 0.5;
   double f0 = 1;  // reflectance at normal incidence, of Schlick's Fresnel term
 
-  bool operator==(const Material&) const = default;
+  bool operator==(const SphereMaterial&) const = default;
 };
 
 // (F0 amplitude + (1 - F0) fresnel) times the integral of the LTC over the light (equation 11 of

@@ -19,7 +19,7 @@ constexpr std::size_t replicates = 2;  // independent estimates a point, which t
 constexpr std::size_t techniques = 2;
 constexpr std::size_t samples_quantum = points_a_pixel * replicates * techniques;
 
-void check(const Material& material, const SphereSettings& settings) {
+void check(const SphereMaterial& material, const SphereSettings& settings) {
   const auto require = [](const char* name, double value, double first, double last) {
     if (!(value >= first && value <= last))
       throw InputError(fmt::format("{} {} is not allowed; expected a number in [{}, {}]", name,
@@ -38,7 +38,7 @@ picture::Field blank(std::size_t size) {
 
 class PixelRow {
  public:
-  PixelRow(std::span<const Table* const> tables, const Material& material,
+  PixelRow(std::span<const Table* const> tables, const SphereMaterial& material,
            const SphereSettings& settings, const ReferenceIntegrator& integrator,
            SphereImages& images)
       : tables_(tables),
@@ -98,7 +98,7 @@ class PixelRow {
   }
 
   std::span<const Table* const> tables_;
-  const Material& material_;
+  const SphereMaterial& material_;
   const SphereSettings& settings_;
   const ReferenceIntegrator& integrator_;
   SphereImages& images_;
@@ -110,7 +110,7 @@ class PixelRow {
 
 }  // namespace
 
-SphereImages render_sphere(std::span<const Table* const> tables, const Material& material,
+SphereImages render_sphere(std::span<const Table* const> tables, const SphereMaterial& material,
                            const SphereSettings& settings, std::string_view stage, int threads,
                            Progress* progress) {
   check(material, settings);

@@ -32,7 +32,7 @@ struct SphereImages {
 
 // The same bits with any number of threads. Throws InputError for a material out of range
 // (roughnesses in [1e-4, 1], F0 in [0, 1]), a size of 0, or no samples.
-SphereImages render_sphere(std::span<const Table* const> tables, const Material& material,
+SphereImages render_sphere(std::span<const Table* const> tables, const SphereMaterial& material,
                            const SphereSettings& settings, std::string_view stage, int threads,
                            Progress* progress);
 

@@ -12,7 +12,7 @@
 namespace ltc {
 
 struct SphereRow {
-  Material material;
+  SphereMaterial material;
   SphereImages images;
 };
 

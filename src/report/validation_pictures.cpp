@@ -176,8 +176,9 @@ NamedPicture sphere_picture(const Validation& validation, const PageSettings& se
       fmt::format("GGX by multiple importance sampling, {} samples a pixel; errors "
                   "are in units of the light's radiance.",
                   sphere.samples)};
-  for (const Material& material : {Material{0.05, 0.25, 1}, Material{0.5, 0.02, 1},
-                                   Material{0.5, 0.25, 1}, Material{0.5, 1, 1}})
+  for (const SphereMaterial& material :
+       {SphereMaterial{0.05, 0.25, 1}, SphereMaterial{0.5, 0.02, 1}, SphereMaterial{0.5, 0.25, 1},
+        SphereMaterial{0.5, 1, 1}})
     content.rows.push_back(
         {material, render_sphere({&pointer, 1}, material, sphere,
                                  fmt::format("render {}, {}", material.alpha_x, material.alpha_y),

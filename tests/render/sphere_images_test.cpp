@@ -17,7 +17,7 @@
 namespace ltc {
 namespace {
 
-const Material kMaterial{0.5, 0.25, 1};
+const SphereMaterial kMaterial{0.5, 0.25, 1};
 
 Table small_table() {
   return testing::synthetic_table(Grid::paper(4), Storage::mirror_frame);
@@ -137,7 +137,7 @@ TEST(SphereImages, ErrorsAreThoseOfPixelsWithValues) {
 
 TEST(SphereImages, RefuseWhatCannotBeRendered) {
   const Table table = small_table();
-  const auto message = [&](const Material& material, const SphereSettings& settings) {
+  const auto message = [&](const SphereMaterial& material, const SphereSettings& settings) {
     const Table* const tables[] = {&table};
     return test::message_of<InputError>(
         [&] { render_sphere(tables, material, settings, "render", 1, nullptr); });
