@@ -37,11 +37,13 @@ TEST(TwoRuns, TheSecondIsRefusedUntilTheFirstIsGone) {
 
 // The program in a shell, no file of which may grow beyond so many blocks of 512 bytes: to a writer
 // that is a full disk. Counts of lines that run (scripts/coverage) would be cut short too, and
-// spoil those of all other tests: they are sent where nothing can be written.
+// spoil those of all other tests: they go where nobody looks. Where nothing can be written the
+// program's counters would say so among its own errors.
 ProgramResult run_limited(int blocks, const Arguments& arguments, const fs::path& folder) {
+  const TemporaryDirectory counts;
   return run_program(Arguments{"sh", "-c",
-                               "ulimit -f " + std::to_string(blocks) +
-                                   "; export GCOV_PREFIX=/dev/null; exec \"$@\"",
+                               "ulimit -f " + std::to_string(blocks) + "; export GCOV_PREFIX=" +
+                                   counts.path().string() + "; exec \"$@\"",
                                "sh"} +
                          command(arguments),
                      folder);
