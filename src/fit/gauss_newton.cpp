@@ -16,8 +16,9 @@ namespace {
 // first-order lobe, count this much of the lobe's spread where the spread is below `prior_spread`,
 // and less by its square ratio in wider lobes. P differs from P0 by the order of the roughness, and
 // with a few thousand samples the tails of a sharp lobe, which are all that row 3 moves, are left
-// open.
-constexpr double prior_weight = 1e-2;
+// open. Ten times as much is as large as what an LTC misses of the lobe, and holds the fit at twice
+// the least loss.
+constexpr double prior_weight = 1e-3;
 constexpr double prior_spread = 1.5e-3;
 
 // Smoothing e of the reweighting, as a share of the loss: below it a residual counts as zero.
@@ -50,10 +51,14 @@ double add_prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p
   return prior(frame, spread, p);
 }
 
+// An entry's own curvature counts at least this share of its column's.
+constexpr double least_own_curvature = 1e-9;
+
 // The damped step over the free entries. Damping is relative to each column's mean curvature, since
-// a column moves the lobe by its own roughness; scale and rotation, which move nothing, are held by
-// it alone.
-Eigen::Matrix3d damped_step(const ModelValue& value, const FreeEntries& free, double damping) {
+// a column moves the lobe by its own roughness, or to each entry's own; scale and rotation, which
+// move nothing, are held by it alone.
+Eigen::Matrix3d damped_step(const ModelValue& value, const FreeEntries& free, double damping,
+                            bool entries_apart) {
   int index[9], count = 0;
   for (int entry = 0; entry < 9; ++entry)
     if (free[entry])
@@ -63,8 +68,12 @@ Eigen::Matrix3d damped_step(const ModelValue& value, const FreeEntries& free, do
     column_curvature[entry % 3] += value.curvature(entry, entry) / 3;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9> system(count, count);
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1> right(count), scale(count);
-  for (int i = 0; i < count; ++i)
-    scale[i] = 1 / std::sqrt(column_curvature[index[i] % 3]);
+  for (int i = 0; i < count; ++i) {
+    const double of_column = column_curvature[index[i] % 3];
+    scale[i] = 1 / std::sqrt(entries_apart ? std::max(value.curvature(index[i], index[i]),
+                                                      least_own_curvature * of_column)
+                                           : of_column);
+  }
   // Scaled to a unit diagonal, so that columns of very different roughness keep their digits.
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < count; ++j)
@@ -136,7 +145,8 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
   for (; best.steps < options.steps; ++best.steps) {
     if (options.progress && options.progress->stop_requested())
       break;
-    Eigen::Matrix3d trial = best.frame_matrix + damped_step(value, free, damping);
+    Eigen::Matrix3d trial =
+        best.frame_matrix + damped_step(value, free, damping, options.damp_entries_apart);
     // The lobe of M is that of M diag(1, -1, 1): a step through a flat lobe comes out on the other
     // side, and is turned back.
     if (trial.determinant() < 0)

@@ -9,21 +9,12 @@
 #include <limits>
 #include <utility>
 
+#include "fit/lobe_class.h"
 #include "fit/starting_points.h"
 #include "fit/workspace.h"
 
 namespace ltc {
 namespace {
-
-// Blocks of neighbouring quantiles a direction: finer ones stop paying and coarser ones begin to
-// blur the tails.
-std::size_t bins_for(int samples) {
-  return static_cast<std::size_t>(std::clamp(samples / 64 / 16 * 16, 32, 256));
-}
-
-// A lobe whose loss is r of its spread is fitted with at least this over r samples: the share that
-// the lattice's noise has in the loss is then below some 1 %.
-constexpr double samples_per_inverse_loss = 30;
 
 // The tolerance of levels that another follows.
 constexpr double passing_tolerance = 1e-3;
@@ -34,40 +25,6 @@ constexpr double promising_share = 1.5;
 
 // A coarse gain below this share is within the noise of the coarse samples.
 constexpr double worthwhile_gain = 2e-3;
-
-// P0's error, relative to the lobe's width, is of the order of alpha/cos^2 theta. Up to this its
-// loss, judged by 65,536 samples, is within 2 % of the best fit's and mostly below it, at 0.014 of
-// the lobe's spread: less than the samples of a fit can tell.
-constexpr double exact_first_order = 2.1e-3;
-
-// How far P0 is off: its error relative to the lobe's width is of this order.
-double first_order_error(const LobeFrame& frame) {
-  const double cosine = frame.omega_v.z();
-  return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) / (cosine * cosine);
-}
-
-bool first_order_is_exact(const LobeFrame& frame) {
-  return first_order_error(frame) < exact_first_order;
-}
-
-// Sharp lobes that P0 is near to: what an LTC misses of them is less than the noise of equally
-// weighted samples, most of which is in the tails.
-constexpr double sharp_alpha = 0.1, near_first_order = 1;
-bool first_order_is_near(const LobeFrame& frame) {
-  return std::max(frame.lobe.alpha_x, frame.lobe.alpha_y) < sharp_alpha &&
-         first_order_error(frame) < near_first_order;
-}
-
-// What no table asks for by default: thinner than alpha_min, or nearer to the horizon than its last
-// view, 89.991 degrees. Such lobes have several minima, and more work is done for them.
-constexpr double least_usual_alpha = 0.9999e-4, grazing_cosine = 1.4e-4;
-bool is_extreme(const LobeFrame& frame) {
-  return std::min(frame.lobe.alpha_x, frame.lobe.alpha_y) < least_usual_alpha ||
-         frame.omega_v.z() < grazing_cosine;
-}
-
-// Of the graded sets.
-constexpr int least_graded_samples = 512;
 
 // How many starts extreme lobes get at least.
 constexpr int starts_at_extremes = 8;
@@ -94,68 +51,7 @@ FitResult no_result(int steps) {
   return {Eigen::Matrix3d::Constant(nan), nan, steps, FitOutcome::non_finite};
 }
 
-// The first level that has samples enough for a lobe whose loss is this share of its spread.
-template <typename Levels>
-std::size_t level_for(const Levels& levels, double relative_loss) {
-  std::size_t level = 0;
-  while (level + 1 < levels.size() &&
-         static_cast<double>(levels[level].cosines.size()) * relative_loss <
-             samples_per_inverse_loss)
-    ++level;
-  return level;
-}
-
 }  // namespace
-
-GaussNewtonSolver::Level GaussNewtonSolver::make_level(CosineSet cosines, int steps,
-                                                       double tolerance) {
-  Level level{std::move(cosines), {}};
-  level.options.steps = steps;
-  level.options.tolerance = tolerance;
-  return level;
-}
-
-GaussNewtonSolver::Ladder GaussNewtonSolver::make_ladder(const GaussNewtonSettings& settings) {
-  Ladder ladder;
-  ladder.lattice = make_target_lattice(static_cast<std::size_t>(settings.target_samples), 0.3);
-  ladder.light_lattice =
-      settings.adaptive
-          ? make_target_lattice(static_cast<std::size_t>(std::max(settings.target_samples / 2, 64)),
-                                0.3)
-          : ladder.lattice;
-  ladder.coarse =
-      make_level(make_cosine_set(static_cast<std::size_t>(settings.coarse_samples), 0.1),
-                 settings.coarse_steps, settings.coarse_tolerance);
-  for (const int divisor : {4, 2, 1}) {
-    const int samples = settings.samples / divisor;
-    if (divisor > 1 && (!settings.adaptive || samples < settings.coarse_samples))
-      continue;
-    ladder.levels.push_back(make_level(make_cosine_set(static_cast<std::size_t>(samples)),
-                                       settings.steps, settings.tolerance));
-  }
-  return ladder;
-}
-
-// For sharp and for extreme lobes. The tails of sharp lobes are so heavy that with equally weighted
-// samples the outermost one alone makes up per cents of the loss: the fit follows its noise. Graded
-// sets have a thousand times lighter ones out there. Besides, each level draws the target from the
-// very lattice of its cosine set: to first order P0 sends a cosine sample to where the visible
-// normal of the same lattice point reflects, so that what noise is left is the same on both sides.
-GaussNewtonSolver::Ladder GaussNewtonSolver::make_graded_ladder(
-    const GaussNewtonSettings& settings) {
-  const auto coarse =
-      static_cast<std::size_t>(std::max(settings.coarse_samples, least_graded_samples));
-  const auto fine =
-      static_cast<std::size_t>(std::clamp(settings.samples, least_graded_samples, 4096));
-  Ladder ladder;
-  ladder.graded_light_lattice = make_graded_lattice(coarse);
-  ladder.graded_lattice = make_graded_lattice(fine);
-  ladder.coarse =
-      make_level(make_graded_cosine_set(coarse), settings.coarse_steps, settings.coarse_tolerance);
-  ladder.levels.push_back(
-      make_level(make_graded_cosine_set(fine), settings.steps, settings.tolerance));
-  return ladder;
-}
 
 GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target)
     : settings_(settings),
@@ -163,24 +59,16 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
       directions_(in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)))),
       bins_(bins_for(settings.samples)),
       usual_(make_ladder(settings)),
-      graded_(make_graded_ladder(settings)) {
-  for (Ladder* ladder : {&usual_, &graded_}) {
-    ladder->coarse.options.direction_stride =
-        static_cast<std::size_t>(std::max(1, settings.directions / settings.coarse_directions));
-    for (Level& level : ladder->levels)
-      level.options.damping = 1e-3;  // it starts next to a minimum
-  }
-}
+      graded_(make_graded_ladder(settings)) {}
 
-const GaussNewtonSolver::Ladder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
-  return target_kind_ == TargetKind::weighted && (is_extreme(frame) || first_order_is_near(frame))
-             ? graded_
-             : usual_;
+const SampleLadder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
+  return target_kind_ == TargetKind::weighted && (is_extreme(frame) || is_sharp(frame)) ? graded_
+                                                                                        : usual_;
 }
 
 void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed, Look look,
                                    FitWorkspace& workspace) const {
-  const Ladder& ladder = ladder_for(frame);
+  const SampleLadder& ladder = ladder_for(frame);
   const TargetLattice& lattice = look == Look::whole ? ladder.lattice : ladder.light_lattice;
   if (&ladder == &graded_)
     sample_graded_target(frame,
@@ -191,15 +79,15 @@ void GaussNewtonSolver::see_target(const LobeFrame& frame, std::uint64_t seed, L
   else
     sample_rejection_target(frame, lattice.size(), seed, workspace.target);
   workspace.quantiles.build(workspace.target, directions_, bins_, workspace.model.xi,
-                            workspace.model.bins);
+                            workspace.model.bins, ladder.spacing);
 }
 
 std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& frame,
                                                            std::uint64_t seed,
                                                            const FitWorkspace& workspace) const {
-  const int count = std::max(settings_.starts, is_extreme(frame)            ? starts_at_extremes
-                                               : first_order_is_near(frame) ? starts_of_sharp
-                                                                            : 1);
+  const int count = std::max(settings_.starts, is_extreme(frame) ? starts_at_extremes
+                                               : is_sharp(frame) ? starts_of_sharp
+                                                                 : 1);
   std::vector<Eigen::Matrix3d> starts = {moment_start(frame, workspace.target),
                                          first_order_start(frame), identity_start(frame)};
   for (int i = 3; i < count; ++i)
@@ -325,7 +213,7 @@ class GaussNewtonSolver::Fit {
 
   void see_target(Look look) { solver_.see_target(frame_, request_.seed, look, workspace_); }
 
-  DescentOptions options_of(const Level& level, FitPhase phase) const {
+  DescentOptions options_of(const SampleLevel& level, FitPhase phase) const {
     DescentOptions options = level.options;
     options.begin = begin_;
     options.progress = request_.progress;
@@ -461,7 +349,7 @@ class GaussNewtonSolver::Fit {
   // A lobe that needs the last one passes through the one before, where steps are cheap, and gets a
   // target of its own there.
   Descent climb(Descent descent) {
-    const std::vector<Level>& levels = ladder_.levels;
+    const std::vector<SampleLevel>& levels = ladder_.levels;
     const std::size_t last = levels.size() - 1;
     std::size_t level = level_needed(descent);
     if (level == last && last > 0)
@@ -482,7 +370,7 @@ class GaussNewtonSolver::Fit {
     }
   }
   std::size_t level_needed(const Descent& descent) const {
-    return level_for(ladder_.levels, descent.loss / workspace_.quantiles.spread());
+    return level_for(ladder_, descent.loss / workspace_.quantiles.spread());
   }
 
   const GaussNewtonSolver& solver_;
@@ -491,7 +379,7 @@ class GaussNewtonSolver::Fit {
   std::vector<FitStep>* trace_;
   LobeFrame frame_;
   FreeEntries free_;
-  const Ladder& ladder_;
+  const SampleLadder& ladder_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   FitResult result_;
 };

@@ -10,8 +10,7 @@
 
 #include <vector>
 
-#include "fit/gauss_newton.h"
-#include "fit/sample_sets.h"
+#include "fit/sample_ladder.h"
 #include "fit/settings.h"
 #include "fit/solver.h"
 
@@ -25,23 +24,7 @@ class GaussNewtonSolver final : public Solver {
                 std::vector<FitStep>* trace) const override;
 
  private:
-  // A cosine set, shared by all entries, and how to descend with it.
-  struct Level {
-    CosineSet cosines;
-    DescentOptions options;
-  };
-  // The sets of a fit, from coarse to fine.
-  struct Ladder {
-    Level coarse;
-    std::vector<Level> levels;  // ascending
-    // Of the last level, and of all below: equally weighted, or graded.
-    TargetLattice lattice, light_lattice;
-    GradedLattice graded_lattice, graded_light_lattice;
-  };
-  static Level make_level(CosineSet cosines, int steps, double tolerance);
-  static Ladder make_ladder(const GaussNewtonSettings& settings);
-  static Ladder make_graded_ladder(const GaussNewtonSettings& settings);
-  const Ladder& ladder_for(const LobeFrame& frame) const;
+  const SampleLadder& ladder_for(const LobeFrame& frame) const;
 
   // Draws the target from one of the lobe's lattices and looks at it along all directions.
   enum class Look { light, whole };
@@ -56,7 +39,7 @@ class GaussNewtonSolver final : public Solver {
   TargetKind target_kind_;
   std::vector<Eigen::Vector3f> directions_;
   std::size_t bins_;
-  Ladder usual_, graded_;
+  SampleLadder usual_, graded_;
 
   class Fit;
 };

@@ -85,7 +85,13 @@ void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy,
         hn::MulAdd(dx, hn::Load(d, gx + i),
                    hn::MulAdd(dy, hn::Load(d, gy + i), hn::Mul(dz, hn::Load(d, gz + i))));
     const V z = hn::Mul(hn::Sub(projection, centre), inverse_scale);
-    const V t = hn::Div(z, hn::Sqrt(hn::MulAdd(z, z, one)));
+    const V hypotenuse = hn::Sqrt(hn::MulAdd(z, z, one));
+    V t = hn::Div(z, hypotenuse);
+    if (map.spacing == BinSpacing::graded) {
+      // 1 - |t| without cancellation.
+      const V beyond = hn::Div(one, hn::Mul(hypotenuse, hn::Add(hypotenuse, hn::Abs(z))));
+      t = hn::CopySign(hn::Sub(one, hn::Sqrt(beyond)), z);
+    }
     const auto bin = hn::ConvertTo(di, hn::MulAdd(t, half, half));
     hn::Store(projection, d, xi + i);
     hn::Store(hn::Max(zero, hn::Min(bin, last)), di, bins + i);
@@ -175,7 +181,13 @@ V integrated_quantile(const TargetCells& target, std::size_t bin_count, V u) {
   const V cubic =
       hn::MulAdd(s, hn::GatherIndex(d, target.c3, cell), hn::GatherIndex(d, target.c2, cell));
   const V quadratic = hn::MulAdd(s, cubic, hn::GatherIndex(d, target.c1, cell));
-  return hn::MulAdd(s, quadratic, hn::GatherIndex(d, target.moment, cell));
+  const V inside = hn::MulAdd(s, quadratic, hn::GatherIndex(d, target.moment, cell));
+  const V unit = hn::Set(d, 1.0f);
+  const V first = hn::Mul(hn::Set(d, target.first_tail), hn::Sqrt(s));
+  const V last = hn::Mul(hn::Set(d, target.last_tail), hn::Sub(unit, hn::Sqrt(hn::Sub(unit, s))));
+  const auto is_first = hn::RebindMask(d, hn::Eq(cell, hn::Zero(di)));
+  const auto is_last = hn::RebindMask(d, hn::Eq(cell, last_cell));
+  return hn::Add(inside, hn::IfThenElse(is_first, first, hn::IfThenElseZero(is_last, last)));
 }
 
 // jacobian_of_sums for every bin, padded with zeros to rows.

@@ -10,6 +10,11 @@
 // function is (1 + z / sqrt(1 + z^2)) / 2 with z = (xi - centre) / scale. Binning in
 // t = z / sqrt(1 + z^2) therefore puts about as many samples into every bin, tails included, and
 // each bin is a block of neighbouring quantiles, which is all that the Gauss-Newton step needs.
+//
+// Seen along the mirror direction, slopes count by their squares, and the tails are heavier still:
+// a thousandth of a sharp lobe makes up a third of its mean there. Graded bins are even in
+// 1 - sqrt(1 - |t|), as the samples of graded sets are (sample_sets.h): with 64 of them the last
+// one holds a two-thousandth of the lobe, not a sixty-fourth.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +29,13 @@ namespace ltc::kernels {
 //   0..8   x g_r a_c (row-major r, c)     9..11  xi a_c     12..14  a_c     15  xi
 inline constexpr std::size_t row_width = 16;
 
+enum class BinSpacing { even, graded };
+
 // How a direction bins its projections.
 struct ProjectionMap {
   float direction_x, direction_y, direction_z;
   float centre, inverse_scale;  // z = (xi - centre) * inverse_scale
+  BinSpacing spacing = BinSpacing::even;
 };
 
 // dx/dP summed over the samples of a bin (nine numbers, row-major), from the bin's row sums.
@@ -69,7 +77,8 @@ void accumulate_weights(const float* xi, const std::int32_t* bins, const float* 
                         std::size_t count, float* scratch, float* sums);
 
 // The target along one direction, cut into cells at the bins' edges. Over cell j the integral of
-// its quantile function is moment + s (c1 + s (c2 + s c3)), s = (u - mass) inverse_width in [0, 1].
+// its quantile function is moment + s (c1 + s (c2 + s c3)), s = (u - mass) inverse_width in [0, 1];
+// the first cell adds first_tail sqrt(s) to it, the last one last_tail (1 - sqrt(1 - s)).
 struct TargetCells {
   const float* mass;  // bin_count + 1 values, the last one 1
   // Where to look for u: the cell of i / bin_count, the lower bound of floor(u bin_count)'s.
@@ -79,6 +88,7 @@ struct TargetCells {
   const float* c1;
   const float* c2;
   const float* c3;
+  float first_tail, last_tail;
 };
 
 // What one direction adds to the model (quantile_model.h): `gradient` row_width floats, the last 7

@@ -104,16 +104,21 @@ void sample_graded_target(const LobeFrame& frame, const GradedLattice& lattice,
   }
 }
 
-void TargetQuantiles::reserve(std::size_t directions, std::size_t bin_count) {
-  if (bin_count_ != bin_count) {
+void TargetQuantiles::reserve(std::size_t directions, std::size_t bin_count, BinSpacing spacing) {
+  if (bin_count_ != bin_count || spacing_ != spacing) {
     bin_count_ = bin_count;
+    spacing_ = spacing;
     unit_edges_.resize(bin_count + 1);
     for (std::size_t j = 0; j <= bin_count; ++j) {
-      const double t = 2.0 * static_cast<double>(j) / static_cast<double>(bin_count) - 1;
+      double t = 2.0 * static_cast<double>(j) / static_cast<double>(bin_count) - 1;
+      if (spacing == BinSpacing::graded)
+        t = std::copysign(1 - (1 - std::abs(t)) * (1 - std::abs(t)), t);
       unit_edges_[j] = t / std::sqrt((1 - t) * (1 + t));
     }
   }
   maps_.resize(directions);
+  first_tail_.resize(directions);
+  last_tail_.resize(directions);
   mass_.resize(directions * (bin_count + 1));
   for (AlignedFloats* array : {&moment_, &inverse_width_, &c1_, &c2_, &c3_})
     array->resize(directions * bin_count);
@@ -123,8 +128,9 @@ void TargetQuantiles::reserve(std::size_t directions, std::size_t bin_count) {
 
 void TargetQuantiles::build(const TargetSamples& samples,
                             const std::vector<Eigen::Vector3f>& directions, std::size_t bin_count,
-                            AlignedFloats& xi, AlignedVector<std::int32_t>& bins) {
-  reserve(directions.size(), bin_count);
+                            AlignedFloats& xi, AlignedVector<std::int32_t>& bins,
+                            BinSpacing spacing) {
+  reserve(directions.size(), bin_count, spacing);
   if (pairs_.size() < 2 * samples.size)
     pairs_.resize(2 * samples.size);
   if (xi.size() < samples.size) {
@@ -138,8 +144,12 @@ void TargetQuantiles::build(const TargetSamples& samples,
     const Eigen::Vector3d d = directions[k].cast<double>();
     const double centre = d.dot(mean);
     const double scale = std::max(target_deviation(samples, d, centre), 1e-30);
-    maps_[k] = {directions[k].x(), directions[k].y(), directions[k].z(), static_cast<float>(centre),
-                static_cast<float>(1 / scale)};
+    maps_[k] = {directions[k].x(),
+                directions[k].y(),
+                directions[k].z(),
+                static_cast<float>(centre),
+                static_cast<float>(1 / scale),
+                spacing};
     kernels::project_and_bin(maps_[k], samples.gx.data(), samples.gy.data(), samples.gz.data(),
                              samples.size, bin_count, xi.data(), bins.data());
     kernels::accumulate_weights(xi.data(), bins.data(), samples.weight.data(), samples.size,
@@ -165,7 +175,7 @@ void TargetQuantiles::keep(BinnedTarget& binned) const {
 void TargetQuantiles::rebuild(const BinnedTarget& binned,
                               const std::vector<Eigen::Vector3f>& directions,
                               std::size_t bin_count) {
-  reserve(directions.size(), bin_count);
+  reserve(directions.size(), bin_count, BinSpacing::even);
   spread_ = binned.spread;
   const float* values = binned.values.data();
   for (std::size_t k = 0; k < directions.size(); ++k, values += 2 + 2 * bin_count) {
@@ -177,7 +187,9 @@ void TargetQuantiles::rebuild(const BinnedTarget& binned,
 
 // Mass and moment of every bin to the cells of kernels::TargetCells. Inside, the integral of the
 // quantile function is the cubic with the cell's mass and moment whose slopes at the ends are the
-// bin's edges; in the first and last cell, where an edge is infinite, it is linear.
+// bin's edges. In the first and last cell, where an edge is infinite, the quantiles are those of a
+// tail that falls like the GGX lobe's, a + b tau^(-1/2) for the mass tau beyond, with the finite
+// edge as the least of them and the cell's moment: integrated, a linear part and a root.
 void TargetQuantiles::cut_into_cells(std::size_t direction) {
   const kernels::ProjectionMap& map = maps_[direction];
   const float* sums = sums_.data() + direction * 2 * bin_count_;
@@ -194,10 +206,16 @@ void TargetQuantiles::cut_into_cells(std::size_t direction) {
     mass[b + 1] = static_cast<float>(below);
     moment_[first + b] = static_cast<float>(moment);
     inverse_width_[first + b] = width > 0 ? static_cast<float>(1 / width) : 0.0f;
-    const bool open = b == 0 || b + 1 == bin_count_;
+    const bool is_first = b == 0, is_last = b + 1 == bin_count_;
+    const bool open = is_first || is_last;
     const double lower = width * (map.centre + unit_edges_[b] / map.inverse_scale);
     const double upper = width * (map.centre + unit_edges_[b + 1] / map.inverse_scale);
-    c1_[first + b] = static_cast<float>(open ? rise : lower);
+    const double tail = open && width > 0 ? 2 * (rise - (is_first ? upper : lower)) : 0;
+    if (is_first)
+      first_tail_[direction] = static_cast<float>(tail);
+    if (is_last)
+      last_tail_[direction] = static_cast<float>(tail);
+    c1_[first + b] = static_cast<float>(open ? rise - tail : lower);
     c2_[first + b] = open ? 0.0f : static_cast<float>(3 * rise - 2 * lower - upper);
     c3_[first + b] = open ? 0.0f : static_cast<float>(lower + upper - 2 * rise);
     moment += rise;
@@ -220,7 +238,9 @@ kernels::TargetCells TargetQuantiles::cells(std::size_t direction) const {
           inverse_width_.data() + first,
           c1_.data() + first,
           c2_.data() + first,
-          c3_.data() + first};
+          c3_.data() + first,
+          first_tail_[direction],
+          last_tail_[direction]};
 }
 
 namespace {

@@ -26,6 +26,8 @@
 
 namespace ltc {
 
+using kernels::BinSpacing;
+
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
@@ -86,11 +88,13 @@ struct BinnedTarget {
 // every bin edge.
 class TargetQuantiles {
  public:
-  // Bins `samples` along every direction. Keeps no reference to its arguments.
+  // Bins `samples` along every direction, the bins spaced as the samples are. Keeps no reference to
+  // its arguments.
   void build(const TargetSamples& samples, const std::vector<Eigen::Vector3f>& directions,
-             std::size_t bin_count, AlignedFloats& xi, AlignedVector<std::int32_t>& bins);
+             std::size_t bin_count, AlignedFloats& xi, AlignedVector<std::int32_t>& bins,
+             BinSpacing spacing = BinSpacing::even);
 
-  // What build() found, and back again, for the same directions and number of bins.
+  // What build() found, and back again, for the same directions and number of even bins.
   void keep(BinnedTarget& binned) const;
   void rebuild(const BinnedTarget& binned, const std::vector<Eigen::Vector3f>& directions,
                std::size_t bin_count);
@@ -105,16 +109,19 @@ class TargetQuantiles {
   kernels::TargetCells cells(std::size_t direction) const;
 
  private:
-  void reserve(std::size_t directions, std::size_t bin_count);
+  void reserve(std::size_t directions, std::size_t bin_count, BinSpacing spacing);
   void cut_into_cells(std::size_t direction);
 
   std::size_t bin_count_ = 0;
+  BinSpacing spacing_ = BinSpacing::even;
   double spread_ = 0;
   std::vector<kernels::ProjectionMap> maps_;
   std::vector<double> unit_edges_;
   // Direction-major, see kernels::TargetCells; `mass_` one longer a direction than the others.
   AlignedFloats mass_, moment_, inverse_width_, c1_, c2_, c3_;
   AlignedVector<std::int32_t> first_cell_;
+  // kernels::TargetCells::first_tail and last_tail, one a direction.
+  std::vector<float> first_tail_, last_tail_;
   AlignedFloats sums_;   // pairs (w, w xi), direction-major
   AlignedFloats pairs_;  // of the samples
 };
