@@ -13,12 +13,10 @@ namespace ltc {
 namespace {
 
 // The prior: columns 0 and 1 of P A, less those of P0 A, squared and relative to the width of the
-// first-order lobe, count this much of the lobe's spread where the spread is below `prior_spread`,
-// and less by its square ratio in wider lobes. P differs from P0 by the order of the roughness, and
-// with a few thousand samples the tails of a sharp lobe, which are all that row 3 moves, are left
-// open. Ten times as much is as large as what an LTC misses of the lobe, and holds the fit at twice
-// the least loss.
-constexpr double prior_weight = 1e-3;
+// first-order lobe, count the prior's weight times the lobe's spread where the spread is below
+// `prior_spread`, and less by its square ratio in wider lobes. P differs from P0 by the order of
+// the roughness, and with a few thousand samples the tails of a sharp lobe, which are all that row
+// 3 moves, are left open.
 constexpr double prior_spread = 1.5e-3;
 
 // Smoothing e of the reweighting, as a share of the loss: below it a residual counts as zero.
@@ -28,27 +26,27 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Weight of the squared entries of column c of P - P0; see prior_weight.
-double prior_strength(const LobeFrame& frame, double spread, int column) {
+// Of the squared entries of column c of P - P0; see prior_spread.
+double prior_strength(const LobeFrame& frame, double spread, int column, double weight) {
   const double roughness[2] = {frame.lobe.alpha_x, frame.lobe.alpha_y};
   const double width = std::max(roughness[0] * frame.first_order.col(0).norm(),
                                 roughness[1] * frame.first_order.col(1).norm());
   const double wide = spread / prior_spread, relative = roughness[column] / width;
-  return prior_weight * spread / (1 + wide * wide) * relative * relative;
+  return weight * spread / (1 + wide * wide) * relative * relative;
 }
 
 // Adds the prior to the model at P, and returns its own value.
-double add_prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p,
+double add_prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, double weight,
                  ModelValue& value) {
   for (int column = 0; column < 2; ++column) {
-    const double strength = prior_strength(frame, spread, column);
+    const double strength = prior_strength(frame, spread, column, weight);
     for (int row = 0; row < 3; ++row) {
       const int entry = 3 * row + column;
       value.gradient[entry] += strength * (p(row, column) - frame.first_order(row, column));
       value.curvature(entry, entry) += strength;
     }
   }
-  return prior(frame, spread, p);
+  return prior(frame, spread, p, weight);
 }
 
 // An entry's own curvature counts at least this share of its column's.
@@ -120,10 +118,10 @@ class CurvatureCorrection {
 
 }  // namespace
 
-double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p) {
+double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, double weight) {
   double penalty = 0;
   for (int column = 0; column < 2; ++column)
-    penalty += 0.5 * prior_strength(frame, spread, column) *
+    penalty += 0.5 * prior_strength(frame, spread, column, weight) *
                (p.col(column) - frame.first_order.col(column)).squaredNorm();
   return penalty;
 }
@@ -139,7 +137,8 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
   evaluate_model(frame, best.frame_matrix, cosines, target, options.direction_stride, smoothing,
                  workspace, value);
   best.loss = value.loss;
-  double objective = value.loss + add_prior(frame, target.spread(), best.frame_matrix, value);
+  double objective = value.loss + add_prior(frame, target.spread(), best.frame_matrix,
+                                            options.prior_weight, value);
   double damping = options.damping;
   CurvatureCorrection correction;
   for (; best.steps < options.steps; ++best.steps) {
@@ -159,7 +158,8 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
       evaluate_model(frame, trial, cosines, target, options.direction_stride, smoothing, workspace,
                      trial_value);
       const double loss = trial_value.loss;
-      trial_objective = loss + add_prior(frame, target.spread(), trial, trial_value);
+      trial_objective =
+          loss + add_prior(frame, target.spread(), trial, options.prior_weight, trial_value);
       accepted = trial_objective < objective;
     }
     if (trace)

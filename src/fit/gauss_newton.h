@@ -19,6 +19,7 @@ struct DescentOptions {
   // Relative to each entry's own curvature, or to the mean of its column's. Row 2 of a sharp lobe
   // has a curvature of alpha^2 of its column's, and would not move if damped like that.
   bool damp_entries_apart = false;
+  double prior_weight = 1e-2;        // of the pull towards P0, see prior()
   std::size_t direction_stride = 1;  // every which of the target's directions is looked along
   // What a trace calls these steps, and since when it counts time.
   FitPhase phase = {};
@@ -34,8 +35,9 @@ struct Descent {
 };
 
 // What the descent adds to the loss at P, for a target of this spread: a weak pull of columns 0 and
-// 1 towards the first-order P0 that decides what the samples of a sharp lobe leave open.
-double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p);
+// 1 towards the first-order P0 that decides what the samples of a sharp lobe leave open. `weight`
+// is DescentOptions::prior_weight.
+double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, double weight);
 
 // Minimises the model over the free entries of P from `start`. A weak prior (design: sharp lobes)
 // holds columns 0 and 1 near the first-order P0 where the samples say nothing. Steps that lose,

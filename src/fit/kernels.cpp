@@ -174,17 +174,18 @@ V integrated_quantile(const TargetCells& target, std::size_t bin_count, V u) {
       break;
     cell = hn::Add(cell, hn::IfThenElseZero(up, one));
   }
-  const V offset = hn::Sub(u, hn::GatherIndex(d, target.mass, cell));
-  const V s = hn::Min(
-      hn::Set(d, 1.0f),
-      hn::Max(hn::Zero(d), hn::Mul(offset, hn::GatherIndex(d, target.inverse_width, cell))));
+  const V unit = hn::Set(d, 1.0f);
+  const auto within = [&](V share) { return hn::Min(unit, hn::Max(hn::Zero(d), share)); };
+  const V inverse_width = hn::GatherIndex(d, target.inverse_width, cell);
+  const V s = within(hn::Mul(hn::Sub(u, hn::GatherIndex(d, target.mass, cell)), inverse_width));
   const V cubic =
       hn::MulAdd(s, hn::GatherIndex(d, target.c3, cell), hn::GatherIndex(d, target.c2, cell));
   const V quadratic = hn::MulAdd(s, cubic, hn::GatherIndex(d, target.c1, cell));
   const V inside = hn::MulAdd(s, quadratic, hn::GatherIndex(d, target.moment, cell));
-  const V unit = hn::Set(d, 1.0f);
   const V first = hn::Mul(hn::Set(d, target.first_tail), hn::Sqrt(s));
-  const V last = hn::Mul(hn::Set(d, target.last_tail), hn::Sub(unit, hn::Sqrt(hn::Sub(unit, s))));
+  // 1 - s from 1 - u: the root would make a thousandth of a rounding of s near 1.
+  const V left = within(hn::Mul(hn::Sub(unit, u), inverse_width));
+  const V last = hn::Mul(hn::Set(d, target.last_tail), hn::Sub(unit, hn::Sqrt(left)));
   const auto is_first = hn::RebindMask(d, hn::Eq(cell, hn::Zero(di)));
   const auto is_last = hn::RebindMask(d, hn::Eq(cell, last_cell));
   return hn::Add(inside, hn::IfThenElse(is_first, first, hn::IfThenElseZero(is_last, last)));

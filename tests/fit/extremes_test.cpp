@@ -137,8 +137,15 @@ class ReferenceCells {
       ++cell;
     const long double width = mass_[cell + 1] - mass_[cell];
     const long double s = width > 0 ? std::clamp((u - mass_[cell]) / width, 0.0L, 1.0L) : 0;
-    if (cell == 0 || cell + 2 == mass_.size())
-      return moment_[cell] + s * rises_[cell];
+    // a + b tau^(-1/2) for the mass tau beyond, the finite edge at one end.
+    if (cell == 0) {
+      const long double tail = 2 * (rises_[cell] - width * edges_[1]);
+      return (rises_[cell] - tail) * s + tail * std::sqrt(s);
+    }
+    if (cell + 2 == mass_.size()) {
+      const long double tail = 2 * (rises_[cell] - width * edges_[cell]);
+      return moment_[cell] + (rises_[cell] - tail) * s + tail * (1 - std::sqrt(1 - s));
+    }
     const long double lower = width * edges_[cell], upper = width * edges_[cell + 1];
     return moment_[cell] + s * (lower + s * ((3 * rises_[cell] - 2 * lower - upper) +
                                              s * (lower + upper - 2 * rises_[cell])));

@@ -133,7 +133,8 @@ TEST(GaussNewton, TakesNoStepThatLoses) {
           if (!free_entries(lobe)[entry]) {
             EXPECT_EQ(p(entry / 3, entry % 3), 0) << test::describe(lobe);
           }
-        const double objective = descent.loss + prior(frame, quantiles.spread(), p);
+        const double objective =
+            descent.loss + prior(frame, quantiles.spread(), p, DescentOptions().prior_weight);
         if (steps > 0) {
           // But for the rounding of the sum here and there.
           EXPECT_LE(objective, previous_objective * (1 + 1e-12))

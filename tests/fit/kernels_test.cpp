@@ -134,7 +134,8 @@ TEST(Kernels, TransformSamplesKeepsDirectionsBehindTheMirrorPlane) {
   });
 }
 
-TEST(Kernels, ProjectAndBinAgreesWithDouble) {
+// Places of bins against double arithmetic, for both spacings.
+void check_project_and_bin(kernels::BinSpacing spacing) {
   constexpr std::size_t count = 4096, bins = 64;
   double worst = 0;
   std::size_t moved = 0, total = 0;
@@ -145,8 +146,9 @@ TEST(Kernels, ProjectAndBinAgreesWithDouble) {
       const AlignedFloats gz = random_floats(count, 3, -width * width, 0);
       for (const Eigen::Vector3d& direction : fibonacci_directions(8)) {
         const Eigen::Vector3f d = direction.cast<float>();
-        const kernels::ProjectionMap map{d.x(), d.y(), d.z(), static_cast<float>(0.1 * width),
-                                         static_cast<float>(4 / width)};
+        const kernels::ProjectionMap map{
+            d.x(),  d.y(), d.z(), static_cast<float>(0.1 * width), static_cast<float>(4 / width),
+            spacing};
         AlignedFloats xi(count);
         AlignedVector<std::int32_t> bin(count);
         kernels::project_and_bin(map, gx.data(), gy.data(), gz.data(), count, bins, xi.data(),
@@ -156,7 +158,10 @@ TEST(Kernels, ProjectAndBinAgreesWithDouble) {
               double(d.x()) * gx[i] + double(d.y()) * gy[i] + double(d.z()) * gz[i];
           worst = std::max(worst, std::abs(xi[i] - expected) / width / kEpsilon);
           const double z = (expected - map.centre) * map.inverse_scale;
-          const double place = (1 + z / std::sqrt(1 + z * z)) / 2 * bins;
+          double t = z / std::sqrt(1 + z * z);
+          if (spacing == kernels::BinSpacing::graded)
+            t = std::copysign(1 - std::sqrt(1 - std::abs(t)), t);
+          const double place = (1 + t) / 2 * bins;
           ASSERT_GE(bin[i], 0);
           ASSERT_LT(bin[i], static_cast<std::int32_t>(bins));
           // A bin's edges are as exact as its place is: a sample on the edge may go either way.
@@ -171,6 +176,31 @@ TEST(Kernels, ProjectAndBinAgreesWithDouble) {
   // Measured: 2.6, and no sample beside its bin. Three products and two sums.
   EXPECT_LT(worst, 4);
   EXPECT_LT(static_cast<double>(moved) / static_cast<double>(total), 1e-4);
+}
+
+TEST(Kernels, ProjectAndBinAgreesWithDouble) {
+  check_project_and_bin(kernels::BinSpacing::even);
+  check_project_and_bin(kernels::BinSpacing::graded);
+}
+
+// Where even bins have long put everything into the last one, graded ones still tell samples apart:
+// z = 22 is the last edge of 64, beyond which lies a share of 1 - sqrt(1 - 1/32^2) = 1/2048.
+TEST(Kernels, GradedBinsTellTailsApart) {
+  constexpr std::size_t count = 16, bins = 64;
+  AlignedFloats gx(count, 0.0f), gy(count, 0.0f), gz(count, 0.0f), xi(count);
+  const std::array<float, 6> z = {8, -8, 12, -12, 23, -23};
+  std::copy(z.begin(), z.end(), gx.begin());
+  AlignedVector<std::int32_t> bin(count);
+  const auto bins_of = [&](kernels::BinSpacing spacing) {
+    kernels::project_and_bin({1, 0, 0, 0, 1, spacing}, gx.data(), gy.data(), gz.data(), count, bins,
+                             xi.data(), bin.data());
+    return std::vector<std::int32_t>(bin.begin(), bin.begin() + z.size());
+  };
+  EveryTarget().run([&] {
+    EXPECT_EQ(bins_of(kernels::BinSpacing::graded),
+              (std::vector<std::int32_t>{61, 2, 62, 1, 63, 0}));
+    EXPECT_EQ(bins_of(kernels::BinSpacing::even), (std::vector<std::int32_t>{63, 0, 63, 0, 63, 0}));
+  });
 }
 
 TEST(Kernels, ProjectionsFarOutsideGoIntoTheOuterBins) {
@@ -265,6 +295,8 @@ struct PlantedTarget {
   std::vector<double> mass{0.0}, quantile{-1.0};
   AlignedFloats mass_f, moment, inverse_width, c1, c2, c3;
   AlignedVector<std::int32_t> first_cell;
+  // Added to the integral over the outer cells, and taken from what lies beyond the last one.
+  static constexpr float first_tail = -0.02f, last_tail = 0.03f;
 
   PlantedTarget() {
     const AlignedFloats widths = random_floats(bins, 21, 0.2f, 1.8f);
@@ -275,7 +307,7 @@ struct PlantedTarget {
       mass.push_back(mass.back() + width);
       quantile.push_back(quantile.back() + 2.0 / bins);
       const double rise = width * (quantile[j] + quantile[j + 1]) / 2;
-      moment.push_back(static_cast<float>(sum));
+      moment.push_back(static_cast<float>(sum + (j > 0 ? first_tail : 0)));
       inverse_width.push_back(static_cast<float>(1 / width));
       c1.push_back(static_cast<float>(width * quantile[j]));
       c2.push_back(static_cast<float>(rise - width * quantile[j]));
@@ -294,7 +326,8 @@ struct PlantedTarget {
 
   kernels::TargetCells cells() const {
     return {mass_f.data(), first_cell.data(), moment.data(), inverse_width.data(),
-            c1.data(),     c2.data(),         c3.data()};
+            c1.data(),     c2.data(),         c3.data(),     first_tail,
+            last_tail};
   }
 
   double integral(double u) const {
@@ -303,6 +336,10 @@ struct PlantedTarget {
       const double width = mass[j + 1] - mass[j];
       const double s = std::min((u - mass[j]) / width, 1.0);
       sum += width * s * (quantile[j] + s * (quantile[j + 1] - quantile[j]) / 2);
+      if (j == 0)
+        sum += first_tail * std::sqrt(s);
+      if (j + 1 == bins)
+        sum += last_tail * (1 - std::sqrt(1 - s));
     }
     return sum;
   }

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fit/lobes.h"
 #include "fit/starting_points.h"
@@ -65,6 +66,15 @@ Vector9 row_major(const Eigen::Matrix3d& matrix) {
   return vector;
 }
 
+// Where M sends the samples, each counted as often as it counts.
+PointSet transformed(const CosineSet& cosines, const Eigen::Matrix3d& matrix) {
+  PointSet set;
+  for (const Eigen::Vector3d& point : test::in_double(cosines))
+    set.points.push_back((matrix * point).normalized());
+  set.weights.assign(cosines.multiplicity.begin(), cosines.multiplicity.end());
+  return set;
+}
+
 TEST(QuantileModel, LossAgreesWithTheSortedLoss) {
   for (const GgxLobe& lobe : test::all_lobes()) {
     Model model(lobe);
@@ -77,12 +87,43 @@ TEST(QuantileModel, LossAgreesWithTheSortedLoss) {
     const auto [far, far_exact] = at(model.away_from_minimum());
     EXPECT_NEAR(far / far_exact, 1, 0.1) << test::describe(lobe);
     // Near the minimum much of what is left is the noise between two sets of samples, which cancels
-    // in blocks: a share of the lobe's spread, not of the loss. Measured: -0.0088 of the spread
-    // where the loss is 0.14 of it, -0.0017 where it is 0.0097.
+    // in blocks: a share of the lobe's spread, not of the loss. Measured: -0.024 of the spread
+    // where the loss is 0.08 of it (alpha 1e-6: these are not graded samples), -0.0017 where it is
+    // 0.0097.
     const auto [near, near_exact] = at(moment_start(model.frame, model.samples));
-    EXPECT_NEAR(near, near_exact, 0.08 * near_exact + 0.003 * model.quantiles.spread())
+    EXPECT_NEAR(near, near_exact, 0.08 * near_exact + 0.02 * model.quantiles.spread())
         << test::describe(lobe);
   }
+}
+
+// A sharp lobe near the horizon, seen along directions near the mirror's, where a thousandth of it
+// makes up a third of the mean: the loss of graded bins is the sorted one's, which even bins miss.
+TEST(QuantileModel, GradedBinsSeeTheTailsOfSharpLobes) {
+  const LobeFrame frame(GgxLobe{0.01, 1e-4, 80 * std::numbers::pi / 180, 0.0});
+  const std::vector<Eigen::Vector3d> directions = {
+      {-0.137, 0.002, 0.991}, {0.120, -0.495, -0.861}, {0.345, -0.505, -0.791}};
+  Eigen::Matrix3d p = frame.first_order;
+  p.row(2).head<2>() << -4.0, 20.0;  // near the best fit's
+  constexpr std::size_t count = 4096;
+  const CosineSet cosines = make_graded_cosine_set(count);
+  TargetSamples samples;
+  sample_graded_target(frame, make_graded_lattice(count), samples);
+  ModelWorkspace workspace;
+  const auto model_loss = [&](std::size_t bins, BinSpacing spacing) {
+    TargetQuantiles quantiles;
+    ModelValue value;
+    quantiles.build(samples, in_float(directions), bins, workspace.xi, workspace.bins, spacing);
+    evaluate_model(frame, p, cosines, quantiles, 1, 1e-5, workspace, value);
+    return value.loss;
+  };
+  const Eigen::Vector3d roughness(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
+  const double exact = sliced_wasserstein(transformed(cosines, p * roughness.asDiagonal()),
+                                          test::in_double(samples), directions);
+  // Blocks lose what cancels inside them, a tenth with 64, and nothing else.
+  // Measured: 0.962, 0.981, 0.780.
+  EXPECT_NEAR(model_loss(64, BinSpacing::graded) / exact, 0.95, 0.05);
+  EXPECT_NEAR(model_loss(256, BinSpacing::graded) / exact, 0.98, 0.03);
+  EXPECT_LT(model_loss(64, BinSpacing::even) / exact, 0.85);
 }
 
 TEST(QuantileModel, GradientAgreesWithTheReference) {

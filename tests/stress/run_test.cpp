@@ -33,19 +33,14 @@ StressTask short_task() {
   return task;
 }
 
-// Of the bars of the long run those of finite results and determinants hold without exception. That
-// of losses is not reached (docs/stability.md): of 22,525 fits 1.45 % are above 1.05 times the
-// best, the worst 1.43 times. Beyond twice that share, or that ratio, something has broken.
+// The bars of the long run.
 TEST(Stress, ShortRun) {
   const StressTask task = short_task();
   const StressRun run = run_stress(task, 2, nullptr);
   const StressVerdict verdict = judge_stress(run.fits, 3);
-  for (const StressCounts& counts : {verdict.own, verdict.bad}) {
-    EXPECT_EQ(counts.non_finite, 0u);
-    EXPECT_EQ(counts.determinants_not_positive, 0u);
-    EXPECT_GE(counts.success_rate(), 0.97);
-    EXPECT_LT(counts.largest_ratio, 1.5);
-  }
+  EXPECT_EQ(verdict.missed_bars, std::vector<std::string>());
+  EXPECT_EQ(verdict.own.missed, 0u);
+  EXPECT_GE(verdict.bad.success_rate(), least_success_from_bad_starts);
   // No start was passed over.
   EXPECT_GE(run.fits.size(), 200u);
   for (const StressCounts& counts : verdict.by_start)
