@@ -228,7 +228,8 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
   };
   add("--json", arguments.json, "the table as JSON [none]");
   add("--csv", arguments.csv, "every fit as a line [none]");
-  add("--picture", arguments.picture, "time against error as PNG [none]");
+  add_png_option(app, "--picture", arguments.picture, "time against error")
+      ->group("Where to write");
 }
 
 }  // namespace

@@ -109,9 +109,8 @@ void add_judge_options(CLI::App& app, CompareSettings& settings) {
 
 void add_output_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "What to write";
-  app.add_option("--map", arguments.map,
-                 "draw the ratio of the losses over the whole table into this file, as PNG [none]")
-      ->option_text("FILE")
+  add_png_option(app, "--map", arguments.map,
+                 "draw the ratio of the losses over the whole table into this file")
       ->group(group);
   app.add_option("--csv", arguments.csv, "write every entry's figures to this file [none]")
       ->option_text("FILE")

@@ -352,9 +352,7 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--trace", arguments.trace, "write every step to this file, as CSV [none]")
       ->option_text("FILE")
       ->group(group);
-  app.add_option("--plot", arguments.plot,
-                 "draw GGX, LTC and their difference into this file, as PNG [none]")
-      ->option_text("FILE")
+  add_png_option(app, "--plot", arguments.plot, "draw GGX, LTC and their difference into this file")
       ->group(group);
 }
 

@@ -165,8 +165,7 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
   CheckpointKeeper keeper(task, *journal, progress);
   keeper.guard([&] {
     table = generate_table(config, work.to_fit, arguments.threads, &progress, &report.generate,
-                           journal.get(),
-                           {work.asked, work.existing ? &*work.existing : nullptr});
+                           journal.get(), {work.asked, work.existing ? &*work.existing : nullptr});
     keeper.close();
     if (work.existing)
       table = extended(*work.existing, table);

@@ -73,6 +73,17 @@ void add_output_option(CLI::App& app, std::string& folder) {
       ->group("Where to write");
 }
 
+CLI::Option* add_png_option(CLI::App& app, const std::string& name, std::string& file,
+                            const std::string& what) {
+  // A folder is refused where the picture is written, with the reason.
+  const auto is_png = [](const std::string& text) {
+    const bool good =
+        std::filesystem::is_directory(text) || std::filesystem::path(text).extension() == ".png";
+    return good ? std::string() : fmt::format("{} does not end in .png", text);
+  };
+  return app.add_option(name, file, what + ", as PNG [none]")->check(is_png)->option_text("FILE");
+}
+
 void add_threads_option(CLI::App& app, int& threads) {
   app.add_option("-t,--threads", threads,
                  "threads; the result has the same bits with any number [one a processor]")

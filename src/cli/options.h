@@ -32,6 +32,9 @@ struct ConfigHelp {
 };
 void add_config_options(CLI::App& app, ConfigArguments& arguments, const ConfigHelp& help = {});
 void add_output_option(CLI::App& app, std::string& folder);
+// A file that is written as PNG; other endings are refused, for viewers go by them.
+CLI::Option* add_png_option(CLI::App& app, const std::string& name, std::string& file,
+                            const std::string& what);
 void add_threads_option(CLI::App& app, int& threads);
 
 // As many threads as this process may use processors.

@@ -205,12 +205,6 @@ void FileSet::commit() {
     flush_to_disk(folder, O_RDONLY | O_DIRECTORY, folder);
 }
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  FileSet file;
-  file.add(path, write);
-  file.commit();
-}
-
 void remove_abandoned_temporaries(const fs::path& path) {
   std::error_code ignored;
   std::vector<fs::path> abandoned;

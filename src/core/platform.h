@@ -40,10 +40,6 @@ class FileSet {
   std::vector<File> written_;
 };
 
-// A set of one: `path` is written whole or, where anything fails, stands as it was.
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path&)>& write);
-
 // Removes temporary files that processes left beside `path` when they were killed while writing it.
 // Only for who knows that nobody writes `path` now.
 void remove_abandoned_temporaries(const std::filesystem::path& path);

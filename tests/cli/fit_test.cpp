@@ -283,6 +283,7 @@ TEST(FitBadInput, HowToFit) {
 
 TEST(FitBadInput, WhereToWrite) {
   expect_refused({"--entry", "1,1,1,1", "--plot", "/proc/none/a.png"}, 3, {"/proc/none"});
+  expect_refused({"--entry", "1,1,1,1", "--plot", "a.jpg"}, 2, {"--plot", "a.jpg", ".png"});
   expect_refused({"--entry", "1,1,1,1", "--trace", "/proc/none/a.csv"}, 3, {"/proc/none"});
 }
 
