@@ -336,8 +336,9 @@ TEST(Invariants, FailedEntriesStandWorstFirst) {
   const Grid& grid = table.grid;
   const std::size_t worse = grid.flat({2, 2, 2, 2}), bad = grid.flat({1, 1, 1, 1});
   for (const auto& [entry, factor] : {std::pair{bad, 1.1}, {worse, 1.2}})
-    replace_matrix(table, entry,
-                   [&](const Eigen::Matrix3d& m) -> Eigen::Matrix3d { return factor * m; });
+    replace_matrix(table, entry, [scale = factor](const Eigen::Matrix3d& m) -> Eigen::Matrix3d {
+      return scale * m;
+    });
   const std::vector<InvariantResult> results = check(table);
   const InvariantResult& result = named(results, "third column");
   EXPECT_EQ(result.entries, (std::vector<std::size_t>{worse, bad}));
