@@ -38,12 +38,14 @@ TEST(TwoRuns, TheSecondIsRefusedUntilTheFirstIsGone) {
 // The program in a shell, no file of which may grow beyond so many blocks of 512 bytes: to a writer
 // that is a full disk. Counts of lines that run (scripts/coverage) would be cut short too, and
 // spoil those of all other tests: they go where nobody looks. Where nothing can be written the
-// program's counters would say so among its own errors.
+// program's counters would say so among its own errors. The thread sanitizer maps a file of its
+// own, which the limit would cut short too; it does without where it finds no place for one.
 ProgramResult run_limited(int blocks, const Arguments& arguments, const fs::path& folder) {
   const TemporaryDirectory counts;
   return run_program(Arguments{"sh", "-c",
-                               "ulimit -f " + std::to_string(blocks) + "; export GCOV_PREFIX=" +
-                                   counts.path().string() + "; exec \"$@\"",
+                               "ulimit -f " + std::to_string(blocks) +
+                                   "; export GCOV_PREFIX=" + counts.path().string() +
+                                   "; export TEST_TMPDIR=/nowhere; exec \"$@\"",
                                "sh"} +
                          command(arguments),
                      folder);
