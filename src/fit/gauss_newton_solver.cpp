@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "fit/lobe_class.h"
@@ -167,7 +168,6 @@ class GaussNewtonSolver::Fit {
     FitResult best = no_result(result_.steps);
     double least = std::numeric_limits<double>::infinity();
     for (const Candidate& candidate : candidates) {
-      see_target(Look::light);
       FitResult result = climbed(candidate.descent);
       result.start_abandoned = !request_.starts.empty() && !candidate.given;
       const double loss = fine_loss(result) * (candidate.given ? 1 - clearly_worse : 1);
@@ -211,7 +211,13 @@ class GaussNewtonSolver::Fit {
     return result_;
   }
 
-  void see_target(Look look) { solver_.see_target(frame_, request_.seed, look, workspace_); }
+  // Nothing where the workspace holds just that.
+  void see_target(Look look) {
+    if (seen_ == look)
+      return;
+    solver_.see_target(frame_, request_.seed, look, workspace_);
+    seen_ = look;
+  }
 
   DescentOptions options_of(const SampleLevel& level, FitPhase phase) const {
     DescentOptions options = level.options;
@@ -349,13 +355,12 @@ class GaussNewtonSolver::Fit {
   // A lobe that needs the last one passes through the one before, where steps are cheap, and gets a
   // target of its own there.
   Descent climb(Descent descent) {
+    see_target(&ladder_ == &solver_.graded_ ? Look::whole : Look::light);
     const std::vector<SampleLevel>& levels = ladder_.levels;
     const std::size_t last = levels.size() - 1;
     std::size_t level = level_needed(descent);
     if (level == last && last > 0)
       --level;
-    if (&ladder_ == &solver_.graded_)
-      see_target(Look::whole);
     for (int phase = 0;; ++level, ++phase) {
       DescentOptions options = options_of(levels[level], {Kind::fine, phase});
       if (level < last && level_needed(descent) > level)
@@ -380,6 +385,7 @@ class GaussNewtonSolver::Fit {
   LobeFrame frame_;
   FreeEntries free_;
   const SampleLadder& ladder_;
+  std::optional<Look> seen_;  // what the workspace's target is
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   FitResult result_;
 };
