@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "fit/sample_sets.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -111,11 +112,16 @@ std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count) {
   return directions;
 }
 
-std::vector<Eigen::Vector3d> random_directions(std::size_t count, std::uint64_t seed) {
+std::vector<Eigen::Vector3d> turned_directions(std::size_t count, std::uint64_t seed) {
   Random random(seed);
-  std::vector<Eigen::Vector3d> directions(count);
+  // Uniform on the unit quaternions, and so on the rotations.
+  Eigen::Vector4d quaternion;
+  for (double& component : quaternion)
+    component = random.normal();
+  const Eigen::Matrix3d rotation(Eigen::Quaterniond(quaternion.normalized()));
+  std::vector<Eigen::Vector3d> directions = fibonacci_directions(count);
   for (Eigen::Vector3d& direction : directions)
-    direction = random.direction();
+    direction = rotation * direction;
   return directions;
 }
 

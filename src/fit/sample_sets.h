@@ -49,8 +49,9 @@ GradedLattice make_graded_lattice(std::size_t count);
 // -d see the same distance.
 std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count);
 
-// Directions uniform on the sphere from a seeded generator.
-std::vector<Eigen::Vector3d> random_directions(std::size_t count, std::uint64_t seed);
+// The same, turned as a whole by a random rotation: for every seed an unbiased set, with an eighth
+// of the error that as many independent directions have.
+std::vector<Eigen::Vector3d> turned_directions(std::size_t count, std::uint64_t seed);
 
 // The same directions as the kernels take them.
 std::vector<Eigen::Vector3f> in_float(const std::vector<Eigen::Vector3d>& directions);

@@ -80,7 +80,7 @@ GradedJudge::GradedJudge(std::size_t samples, std::size_t directions, std::uint6
     : of_lobe_(make_lattice(samples, 0.713 + 1e-3 * static_cast<double>(seed % 991))),
       of_lobe_again_(make_lattice(samples, 0.391 + 1e-3 * static_cast<double>(seed % 983))),
       of_cosine_(make_lattice(samples, 0.237 + 1e-3 * static_cast<double>(seed % 997))),
-      directions_(random_directions(directions, seed)),
+      directions_(turned_directions(directions, seed)),
       lobe_(directions),
       keys_(samples) {
   points_.offset.resize(3, static_cast<Eigen::Index>(samples));

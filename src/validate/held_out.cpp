@@ -31,7 +31,7 @@ void project(const Eigen::Vector3f& direction, const AlignedFloats& x, const Ali
 HeldOutJudge::HeldOutJudge(std::size_t samples, std::size_t directions, std::uint64_t seed)
     : cosines_(make_cosine_set(samples, 0.237 + 1e-3 * static_cast<double>(seed % 997))),
       lattice_(make_target_lattice(samples, 0.713 + 1e-3 * static_cast<double>(seed % 991))),
-      directions_(random_directions(directions, seed)) {
+      directions_(turned_directions(directions, seed)) {
   const std::size_t count = cosines_.size();
   keys_.resize(count);
   for (AlignedFloats* array : {&points_.x, &points_.y, &points_.z, &points_b_.x, &points_b_.y,

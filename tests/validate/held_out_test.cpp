@@ -36,7 +36,7 @@ PointSet target_in_double(const GgxLobe& lobe) {
 TEST(HeldOut, AgreesWithTheReferenceInDouble) {
   const std::vector<Eigen::Vector3d> omega_o =
       test::in_double(make_cosine_set(kSamples, 0.237 + 1e-3 * static_cast<double>(kSeed % 997)));
-  const std::vector<Eigen::Vector3d> directions = random_directions(kDirections, kSeed);
+  const std::vector<Eigen::Vector3d> directions = turned_directions(kDirections, kSeed);
   HeldOutJudge judge(kSamples, kDirections, kSeed);
   for (const GgxLobe& lobe : test::all_lobes()) {
     const LobeFrame frame(lobe);
@@ -60,7 +60,7 @@ TEST(HeldOut, SpreadIsTheDistanceToTheBestSingleDirection) {
   HeldOutJudge judge(kSamples, 1, 5);
   judge.set_lobe(lobe);
   // Along one direction no point is nearer to the lobe than its median.
-  const Eigen::Vector3d d = random_directions(1, 5)[0];
+  const Eigen::Vector3d d = turned_directions(1, 5)[0];
   PointSet target = target_in_double(lobe);
   double best = std::numeric_limits<double>::infinity();
   for (int i = -1000; i <= 1000; ++i)
@@ -93,6 +93,23 @@ TEST(HeldOut, FittedMatricesLoseLessThanPerturbedOnes) {
   }
 }
 
+TEST(HeldOut, ItsDirectionsSpeakForAll) {
+  HeldOutJudge judge(4096), of_many(4096, 2048), of_few(4096, 4);
+  double largest = 0, largest_of_few = 0;
+  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+    const LobeFrame frame(lobe);
+    const Eigen::Matrix3d m = frame.to_matrix(first_order_start(frame));
+    for (HeldOutJudge* each : {&judge, &of_many, &of_few})
+      each->set_lobe(lobe);
+    const double loss = of_many.loss(m);
+    largest = std::max(largest, std::abs(judge.loss(m) / loss - 1));
+    largest_of_few = std::max(largest_of_few, std::abs(of_few.loss(m) / loss - 1));
+  }
+  // Measured: 0.0087 and 0.10; with 64 independent directions losses are 4 % off (rms).
+  EXPECT_LT(largest, 0.02);
+  EXPECT_GT(largest_of_few, 0.05);
+}
+
 TEST(HeldOut, AMatrixThatIsNotFiniteHasNoLoss) {
   HeldOutJudge judge(256, 4);
   judge.set_lobe({0.5, 0.5, 0.5, 0.0});
@@ -122,7 +139,7 @@ TEST(HeldOut, APairIsJudgedAsEachByItself) {
 TEST(HeldOut, TheDistanceOfAPairIsThatOfTheReferenceInDouble) {
   const std::vector<Eigen::Vector3d> omega_o =
       test::in_double(make_cosine_set(kSamples, 0.237 + 1e-3 * static_cast<double>(kSeed % 997)));
-  const std::vector<Eigen::Vector3d> directions = random_directions(kDirections, kSeed);
+  const std::vector<Eigen::Vector3d> directions = turned_directions(kDirections, kSeed);
   const auto points_of = [&](const Eigen::Matrix3d& matrix) {
     PointSet set;
     for (const Eigen::Vector3d& omega : omega_o)
