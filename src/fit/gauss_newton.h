@@ -13,13 +13,10 @@
 namespace ltc {
 
 struct DescentOptions {
-  int steps = 10;           // most steps, accepted or not
-  double tolerance = 1e-3;  // stop when an accepted step gains less than this share of the loss
-  double damping = 1e-2;    // first damping, relative to the curvature's diagonal
-  // Relative to each entry's own curvature, or to the mean of its column's. Row 2 of a sharp lobe
-  // has a curvature of alpha^2 of its column's, and would not move if damped like that.
-  bool damp_entries_apart = false;
-  double prior_weight = 1e-2;        // of the pull towards P0, see prior()
+  int steps = 10;              // most steps, accepted or not
+  double tolerance = 1e-3;     // stop when an accepted step gains less than this share of the loss
+  double damping = 1e-2;       // first damping, relative to the curvature's diagonal
+  double prior_weight = 1e-2;  // of the pull towards P0, see prior()
   std::size_t direction_stride = 1;  // every which of the target's directions is looked along
   // What a trace calls these steps, and since when it counts time.
   FitPhase phase = {};

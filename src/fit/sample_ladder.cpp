@@ -71,10 +71,8 @@ SampleLadder make_graded_ladder(const GaussNewtonSettings& settings) {
   ladder.graded_lattice = make_graded_lattice(fine);
   ladder.coarse = make_coarse(make_graded_cosine_set(coarse), settings);
   ladder.levels.push_back(make_fine(make_graded_cosine_set(fine), settings));
-  for (SampleLevel* level : {&ladder.coarse, &ladder.levels.back()}) {
-    level->options.damp_entries_apart = true;
+  for (SampleLevel* level : {&ladder.coarse, &ladder.levels.back()})
     level->options.prior_weight = graded_prior_weight;
-  }
   return ladder;
 }
 

@@ -22,7 +22,8 @@ double column_length(double deviation) {
   return deviation / std::max(1 - deviation * (1 - of_cosine) / of_cosine, 0.1);
 }
 
-// A column of M never starts thinner than this share of the other one.
+// A column of M never starts thinner than this share of the other one. A lobe with one roughness
+// near zero is bent, and a flat LTC cannot tell which way to open: one that starts flat may end so.
 constexpr double thinnest_start = 0.1;
 
 }  // namespace
@@ -73,8 +74,7 @@ Eigen::Matrix3d moment_start(const LobeFrame& frame, const TargetSamples& target
   Eigen::Matrix3d m;
   m.col(0) = column(2);
   m.col(1) = column(1);
-  // A lobe too flat for the samples to tell its thickness still needs one.
-  m.col(1) *= std::max(1.0, 1e-3 * m.col(0).norm() / std::max(m.col(1).norm(), 1e-30));
+  m.col(1) *= std::max(1.0, thinnest_start * m.col(0).norm() / std::max(m.col(1).norm(), 1e-30));
   m.col(2) = axis;
   if (m.determinant() < 0)
     m.col(1) = -m.col(1);

@@ -17,12 +17,12 @@ namespace ltc {
 
 // P0, exact as the roughness goes to zero: reflecting about the microfacet normal is linear in the
 // slopes to first order, and clamped-cosine slopes have the GGX slope distribution. The thinner
-// axis is widened to a tenth of the other, since a lobe with one roughness near zero is bent, and
-// an LTC that is flat to begin with cannot tell which way to open.
+// axis is widened to a tenth of the other.
 Eigen::Matrix3d first_order_start(const LobeFrame& frame);
 
 // The LTC that has the lobe's mean direction as its axis and, along the principal axes of the
-// lobe's covariance about it, the lobe's mean absolute deviations.
+// lobe's covariance about it, the lobe's mean absolute deviations; the thinner one is widened to a
+// tenth of the other.
 Eigen::Matrix3d moment_start(const LobeFrame& frame, const TargetSamples& target);
 
 // M = I, the clamped cosine itself.

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "fit/lobes.h"
 #include "fit/starting_points.h"
 #include "statistics.h"
+#include "validate/held_out.h"
 
 namespace ltc {
 namespace {
@@ -167,6 +169,31 @@ TEST(GaussNewton, ZeroStepsReturnTheStart) {
   EXPECT_EQ(descent.steps, 0);
   EXPECT_LT((descent.frame_matrix - start).norm(), 1e-14);
   EXPECT_FALSE(descent.converged);
+}
+
+// Lobes of brushed metal seen obliquely to the brush, alpha_y = 1e-4: they lie on a cone. A matrix
+// whose thin column stays thin is a minimum too, a twentieth above the one that opens; for each of
+// these lobes some setting of damping, smoothing and start led there.
+TEST(GaussNewtonSolver, OpensThinBentLobes) {
+  const std::unique_ptr<Solver> solver = make_solver({});
+  FitWorkspacePointer workspace = make_fit_workspace();
+  const double node = 89.991 / 7 * std::numbers::pi / 180,
+               azimuth = 90.0 / 7 * std::numbers::pi / 180;
+  const struct {
+    GgxLobe lobe;
+    double reference_loss;  // held out, of config/reference.toml
+  } cases[] = {{{3.0 / 7, 1e-4, 2 * node, azimuth}, 6.5623e-3},
+               {{4.0 / 7, 1e-4, node, azimuth}, 3.9208e-3},
+               {{5.0 / 7, 1e-4, node, azimuth}, 4.1599e-3}};
+  HeldOutJudge judge;
+  for (const auto& [lobe, reference_loss] : cases) {
+    FitRequest request;
+    request.lobe = lobe;
+    const Eigen::Matrix3d m = solver->fit(request, *workspace, nullptr).matrix;
+    judge.set_lobe(lobe);
+    // Measured: 1.0022, 1.0027 and 1.0025 times; thin ones had 1.03 to 1.10 times.
+    EXPECT_LT(judge.loss(m), 1.01 * reference_loss) << test::describe(lobe);
+  }
 }
 
 TEST(GaussNewtonSolver, ReturnsAPositiveDeterminantAndTheSameBitsInAnyWorkspace) {

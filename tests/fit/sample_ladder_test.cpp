@@ -54,7 +54,6 @@ TEST(SampleLadder, GrowsToWhatTheSettingsSay) {
   EXPECT_EQ(usual.levels[2].cosines.size(), 4096u);
   EXPECT_EQ(usual.lattice.size(), 8192u);
   EXPECT_EQ(usual.spacing, BinSpacing::even);
-  EXPECT_FALSE(usual.levels[2].options.damp_entries_apart);
   // A loss of r of the spread wants 30/r samples.
   EXPECT_EQ(level_for(usual, 0.03), 0u);
   EXPECT_EQ(level_for(usual, 0.02), 1u);
@@ -73,8 +72,8 @@ TEST(SampleLadder, GradedOnesHaveGradedBins) {
   ASSERT_EQ(graded.levels.size(), 1u);
   EXPECT_EQ(graded.levels[0].cosines.size(), 4096u);
   EXPECT_EQ(graded.graded_lattice.size(), 4096u);
-  EXPECT_TRUE(graded.levels[0].options.damp_entries_apart);
-  EXPECT_TRUE(graded.coarse.options.damp_entries_apart);
+  EXPECT_LT(graded.levels[0].options.prior_weight, DescentOptions().prior_weight);
+  EXPECT_EQ(graded.coarse.options.prior_weight, graded.levels[0].options.prior_weight);
 }
 
 TEST(SampleLadder, BinsAreWholeVectors) {
