@@ -22,6 +22,12 @@ Vector9 swapped(const Vector9& value) {
   return result;
 }
 
+bool keeps(const Eigen::Matrix3d& matrix, const SingularityBound& bound) {
+  return matrix.determinant() >= bound.determinant &&
+         solid_angle_of_columns(matrix) >= bound.solid_angle &&
+         frobenius_condition(matrix * bound.scale.asDiagonal()) <= bound.condition;
+}
+
 // The node of the azimuth pi/2 - phi; the axis' size if there is none.
 std::size_t swapped_azimuth(const Axis& phi, std::size_t index) {
   const double wanted = std::numbers::pi / 2 - phi.nodes[index];
@@ -103,9 +109,13 @@ double solid_angle_of_columns(const Eigen::Matrix3d& matrix) {
   return matrix.colwise().normalized().determinant();
 }
 
+double frobenius_condition(const Eigen::Matrix3d& matrix) {
+  return matrix.norm() * matrix.inverse().norm();
+}
+
 std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
                                      const NodeVectors& step,
-                                     const std::vector<DeterminantBound>& bounds) {
+                                     const std::vector<SingularityBound>& bounds) {
   constexpr int most_halvings = 30;
   std::vector<Eigen::Matrix3d> result = stored;
   for (std::size_t flat = 0; flat < stored.size(); ++flat) {
@@ -115,8 +125,7 @@ std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
     for (int halvings = 0; halvings < most_halvings; ++halvings, change /= 2) {
       Eigen::Matrix3d candidate = stored[flat] + change;
       candidate /= candidate.col(2).norm();
-      if (candidate.determinant() >= bounds[flat].determinant &&
-          solid_angle_of_columns(candidate) >= bounds[flat].solid_angle) {
+      if (keeps(candidate, bounds[flat])) {
         result[flat] = candidate;
         break;
       }

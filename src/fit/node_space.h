@@ -47,19 +47,25 @@ class NodeSpace {
 };
 
 // How near a matrix may come to a singular one.
-struct DeterminantBound {
+struct SingularityBound {
   double determinant;  // at least this
-  double solid_angle;  // and that of the columns' directions, in [-1, 1], at least this
+  double solid_angle;  // that of the columns' directions, in [-1, 1], at least this
+  double condition;    // of the matrix with columns scaled by `scale`, at most this
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
 };
 
 // |a b c| of the matrix's columns, each made a unit vector: what is left of the determinant's
 // digits when a shader rounds its entries. 1 for orthogonal columns, 0 for a singular matrix.
 double solid_angle_of_columns(const Eigen::Matrix3d& matrix);
 
+// |M| |M^-1| in the Frobenius norm: one to three times the condition number, in a tenth of the
+// time. 3 for a rotation, not finite for a singular matrix.
+double frobenius_condition(const Eigen::Matrix3d& matrix);
+
 // stored + step with third columns of unit length again. Where that would fall below its bound, the
 // node takes half the step, and half again; tied nodes of equal bounds stay tied.
 std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
                                      const NodeVectors& step,
-                                     const std::vector<DeterminantBound>& bounds);
+                                     const std::vector<SingularityBound>& bounds);
 
 }  // namespace ltc

@@ -18,8 +18,9 @@ constexpr double damping_fall = 0.4, damping_rise = 6, least_damping = 1e-3;
 
 // No node's matrix comes nearer to a singular one than this share of its determinant, nor do its
 // columns, unless the fit was there already: rounded to half precision, with entries off by 2^-11
-// of them, it must still have a determinant of the same sign, and some digits of it.
-constexpr double least_determinant_share = 0.1, least_solid_angle = 0.01;
+// of them, or by 2^-25 if they are near zero, it must still have a determinant of the same sign,
+// and some digits of it.
+constexpr double least_determinant_share = 0.1, least_solid_angle = 0.01, most_condition = 1e6;
 
 // Sets of samples that the held-out queries do not share with those refined on.
 constexpr double refined_shift = 0.0, held_out_shift = 0.4321;
@@ -116,6 +117,24 @@ Queries queries_held_out(const Grid& grid, const std::vector<QueryRange>& asked,
   return queries;
 }
 
+// The condition is that of M, whatever the table stores.
+std::vector<SingularityBound> bounds_at(const Grid& grid, Storage storage,
+                                        const std::vector<Eigen::Matrix3d>& stored) {
+  std::vector<SingularityBound> bounds;
+  for (std::size_t flat = 0; flat < stored.size(); ++flat) {
+    const Eigen::Matrix3d& matrix = stored[flat];
+    const Eigen::Vector3d scale =
+        matrix_from_stored(storage, Eigen::Matrix3d::Identity(), grid.lobe(grid.node(flat)))
+            .colwise()
+            .norm();
+    bounds.push_back({least_determinant_share * matrix.determinant(),
+                      std::min(least_solid_angle, solid_angle_of_columns(matrix)),
+                      std::max(most_condition, frobenius_condition(matrix * scale.asDiagonal())),
+                      scale});
+  }
+  return bounds;
+}
+
 }  // namespace
 
 RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
@@ -144,10 +163,7 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
   const double judged =
       static_cast<double>(judge.size()) / static_cast<double>(held_out.lobes.size());
   report.loss_before = report.loss_after = judge.evaluate(stored, threads, progress) / judged;
-  std::vector<DeterminantBound> bounds;
-  for (const Eigen::Matrix3d& matrix : current)
-    bounds.push_back({least_determinant_share * matrix.determinant(),
-                      std::min(least_solid_angle, solid_angle_of_columns(matrix))});
+  const std::vector<SingularityBound> bounds = bounds_at(grid, storage, current);
   double damping = settings.damping;
   while (report.steps < settings.steps) {
     ++report.steps;

@@ -72,7 +72,6 @@ const std::vector<Key>& keys() {
 
 ValidateSettings settings_for_refined_tables() {
   ValidateSettings settings;
-  settings.invariants.condition_number = 1.6e7;
   settings.invariants.alignment_degrees = 180;
   settings.invariants.inverse_error = 0.1;
   settings.invariants.neighbour_excess = 10;

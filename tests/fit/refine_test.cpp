@@ -59,8 +59,8 @@ const std::vector<bool> all_of(const Grid& grid) {
   return std::vector<bool>(grid.size(), true);
 }
 
-std::vector<DeterminantBound> no_bounds(const Grid& grid) {
-  return std::vector<DeterminantBound>(grid.size(), {-1e300, -2});
+std::vector<SingularityBound> no_bounds(const Grid& grid) {
+  return std::vector<SingularityBound>(grid.size(), {-1e300, -2, 1e300, Eigen::Vector3d::Ones()});
 }
 
 TEST(NodeSpace, ProjectionIsOrthogonal) {
@@ -157,7 +157,7 @@ TEST(NodeSpace, StepsAreShortenedBeforeADeterminantTurns) {
   const std::size_t node = grid.flat({1, 1, 1, 1});
   for (int row = 0; row < 3; ++row)
     step[node][3 * row] = -3 * stored[node](row, 0);  // turns the first column round
-  std::vector<DeterminantBound> bounds = no_bounds(grid);
+  std::vector<SingularityBound> bounds = no_bounds(grid);
   bounds[node].determinant = 0.3 * stored[node].determinant();
   const std::vector<Eigen::Matrix3d> result = stepped(stored, step, bounds);
   EXPECT_GE(result[node].determinant(), bounds[node].determinant);
@@ -171,13 +171,37 @@ TEST(NodeSpace, StepsAreShortenedBeforeColumnsMeet) {
   const std::size_t node = grid.flat({1, 1, 1, 1});
   for (int row = 0; row < 3; ++row)  // the first column almost along the third, and much longer
     step[node][3 * row] = 500 * stored[node](row, 2);
-  std::vector<DeterminantBound> bounds = no_bounds(grid);
+  std::vector<SingularityBound> bounds = no_bounds(grid);
   bounds[node].solid_angle = 0.03;
   EXPECT_LT(solid_angle_of_columns(stepped(stored, step, no_bounds(grid))[node]), 0.01);
   const std::vector<Eigen::Matrix3d> result = stepped(stored, step, bounds);
   EXPECT_GE(solid_angle_of_columns(result[node]), 0.03);
   EXPECT_NE(result[node], stored[node]);
   EXPECT_NEAR(solid_angle_of_columns(2 * Eigen::Matrix3d::Identity()), 1, 1e-15);
+}
+
+TEST(NodeSpace, StepsAreShortenedBeforeAColumnVanishes) {
+  const Grid grid = small_grid();
+  std::vector<Eigen::Matrix3d> stored = matrices(grid);
+  const std::size_t node = grid.flat({1, 1, 1, 1});
+  stored[node] = Eigen::Vector3d(0.1, 1e-4, 1).asDiagonal();
+  // The second column a hundredth as long and the first longer: the determinant keeps a tenth.
+  NodeVectors step(grid.size(), Vector9::Zero());
+  step[node][0] = 0.9;
+  step[node][4] = -0.99e-4;
+  std::vector<SingularityBound> bounds = no_bounds(grid);
+  bounds[node].determinant = 0.1 * stored[node].determinant();
+  EXPECT_GT(frobenius_condition(stepped(stored, step, bounds)[node]), 1e6);
+  bounds[node].condition = 3e4;
+  const std::vector<Eigen::Matrix3d> result = stepped(stored, step, bounds);
+  EXPECT_LE(frobenius_condition(result[node]), 3e4);
+  EXPECT_NE(result[node], stored[node]);
+  // A table that stores M without its roughness is bound by M.
+  bounds[node].scale = {1, 0.5, 1};
+  EXPECT_LE(frobenius_condition(stepped(stored, step, bounds)[node]), 1.5e4);
+  EXPECT_NEAR(frobenius_condition(-2 * Eigen::Matrix3d::Identity()), 3, 1e-12);
+  EXPECT_NEAR(frobenius_condition(stored[node]), std::sqrt(1.01) * 1e4, 10);
+  EXPECT_FALSE(std::isfinite(frobenius_condition(Eigen::Matrix3d::Zero())));
 }
 
 struct System {
