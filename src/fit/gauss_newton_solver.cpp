@@ -40,6 +40,10 @@ constexpr double clearly_worse = 2e-3;
 constexpr double rival_share = 1.5;
 constexpr std::size_t most_rivals = 4;
 
+// Nearer to the horizon than this the tails of a lobe may outweigh it; where the loss on more
+// samples is larger by this share, a fit has followed those that it had.
+constexpr double heavy_tailed_cosine = 0.1, overfit_share = 0.03;
+
 // What the widths of lobes may differ by for want of samples, as a share of the spread.
 constexpr double width_noise = 0.1;
 
@@ -97,15 +101,6 @@ std::vector<Eigen::Matrix3d> GaussNewtonSolver::own_starts(const LobeFrame& fram
   return starts;
 }
 
-FitResult GaussNewtonSolver::analytic_result(const LobeFrame& frame,
-                                             FitWorkspace& workspace) const {
-  const Eigen::Matrix3d p = admissible(frame.first_order, free_entries(frame.lobe));
-  ModelValue value;
-  evaluate_model(frame, p, usual_.levels.back().cosines, workspace.quantiles, 1,
-                 workspace.quantiles.spread(), workspace.model, value);
-  return {frame.to_matrix(p), value.loss, 0, FitOutcome::analytic};
-}
-
 // One request under way.
 class GaussNewtonSolver::Fit {
  public:
@@ -122,7 +117,7 @@ class GaussNewtonSolver::Fit {
   FitResult run() {
     see_target(Look::light);
     if ((request_.starts.empty() || !request_.incumbent) && first_order_is_exact(frame_)) {
-      FitResult result = solver_.analytic_result(frame_, workspace_);
+      FitResult result = analytic_result();
       result.start_abandoned = !request_.starts.empty();
       return result;
     }
@@ -138,6 +133,11 @@ class GaussNewtonSolver::Fit {
     bool given = false;
     double loss = 0;  // honest
   };
+
+  FitResult analytic_result() {
+    const Eigen::Matrix3d p = admissible(frame_.first_order, free_);
+    return {frame_.to_matrix(p), loss_on(solver_.usual_.levels.back(), p), 0, FitOutcome::analytic};
+  }
 
   FitResult fit_anew() {
     if (request_.starts.empty() && &ladder_ == &solver_.usual_) {
@@ -183,10 +183,7 @@ class GaussNewtonSolver::Fit {
   // On the last level, whichever the climb ended on.
   double fine_loss(const FitResult& result) {
     see_target(Look::whole);
-    ModelValue value;
-    evaluate_model(frame_, frame_.from_matrix(result.matrix), ladder_.levels.back().cosines,
-                   workspace_.quantiles, 1, workspace_.quantiles.spread(), workspace_.model, value);
-    return value.loss;
+    return loss_on(ladder_.levels.back(), frame_.from_matrix(result.matrix));
   }
 
   // From the neighbours' solutions, where they promise more than what there is.
@@ -237,13 +234,14 @@ class GaussNewtonSolver::Fit {
     return solver_.own_starts(frame_, request_.seed, workspace_);
   }
 
-  double coarse_loss(const Eigen::Matrix3d& start) {
+  double loss_on(const SampleLevel& level, const Eigen::Matrix3d& frame_matrix) {
     ModelValue value;
-    evaluate_model(frame_, start, ladder_.coarse.cosines, workspace_.quantiles,
-                   ladder_.coarse.options.direction_stride, workspace_.quantiles.spread(),
-                   workspace_.model, value);
+    evaluate_model(frame_, frame_matrix, level.cosines, workspace_.quantiles,
+                   level.options.direction_stride, workspace_.quantiles.spread(), workspace_.model,
+                   value);
     return value.loss;
   }
+  double coarse_loss(const Eigen::Matrix3d& start) { return loss_on(ladder_.coarse, start); }
 
   // The coarse loss, or what the widths alone make it at least. The model compares means of bins,
   // so that it takes a lobe far narrower than a bin for a good one wherever its mean is right; but
@@ -368,11 +366,16 @@ class GaussNewtonSolver::Fit {
       descent = minimise(frame_, descent.frame_matrix, free_, levels[level].cosines,
                          workspace_.quantiles, options, workspace_.model, trace_);
       result_.steps += descent.steps;
-      if (level == last || level_needed(descent) <= level)
+      if (level == last ||
+          (level_needed(descent) <= level && !is_overfitted(descent, levels[level + 1])))
         return descent;
       if (level + 1 == last)
         see_target(Look::whole);
     }
+  }
+  bool is_overfitted(const Descent& descent, const SampleLevel& next) {
+    return frame_.omega_v.z() < heavy_tailed_cosine &&
+           loss_on(next, descent.frame_matrix) > (1 + overfit_share) * descent.loss;
   }
   std::size_t level_needed(const Descent& descent) const {
     return level_for(ladder_, descent.loss / workspace_.quantiles.spread());

@@ -33,7 +33,6 @@ class GaussNewtonSolver final : public Solver {
   // At least as many as the settings say.
   std::vector<Eigen::Matrix3d> own_starts(const LobeFrame& frame, std::uint64_t seed,
                                           const FitWorkspace& workspace) const;
-  FitResult analytic_result(const LobeFrame& frame, FitWorkspace& workspace) const;
 
   GaussNewtonSettings settings_;
   TargetKind target_kind_;

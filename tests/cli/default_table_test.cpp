@@ -21,6 +21,7 @@
 #include "fit/solver.h"
 #include "support/broken_table.h"
 #include "support/program.h"
+#include "support/reference.h"
 #include "support/sanitizer.h"
 #include "support/table_faults.h"
 #include "table/lookup.h"
@@ -262,6 +263,37 @@ TEST(DefaultTable, IsWholeReadableAndNearTheReference) {
   expect_readable_by_others(folder.path());
   expect_near_reference(table);
   expect_sound(folder.path());
+}
+
+// ---- Against the published table ----
+
+// The row "all" of `ltcfit diff A B`, on a quarter of its samples.
+nlohmann::json compared(const fs::path& folder, const std::string& a, const std::string& b) {
+  const ProgramResult result =
+      run_ltcfit({"diff", a, b, "--samples", "4096", "--json", "diff.json"}, folder);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return nlohmann::json::parse(read_file(folder / "diff.json"))["rows"][0];
+}
+
+bool is_nearer(const nlohmann::json& row) {
+  return row["ratio"]["mean"] < 1.0 && row["ratio"]["largest"] <= 1.05 &&
+         row["loss_a"]["mean"] < row["loss_b"]["mean"] &&
+         row["loss_a"]["p95"] < row["loss_b"]["p95"];
+}
+
+TEST(DefaultTable, AsFittedIsNearerToGgxThanThePublished) {
+  const fs::path published = reference_file("upstream_alpha_lambda_theta_phi.npy");
+  if (!fs::exists(published))
+    GTEST_SKIP() << "no " << published << "; set LTCFIT_REFERENCE_DIR to the folder that has it";
+  const TemporaryDirectory folder;
+  const ProgramResult result =
+      run_ltcfit({"generate", "-o", "out", "--set", "refine.steps=0"}, folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json row = compared(folder.path(), "out/ltc.h5", published.string());
+  EXPECT_EQ(row["entries"], 4096);
+  EXPECT_TRUE(is_nearer(row)) << row;
+  EXPECT_LT(row["ratio"]["mean"], 0.91) << row;  // measured: 0.894
+  EXPECT_FALSE(is_nearer(compared(folder.path(), published.string(), "out/ltc.h5")));
 }
 
 // ---- Refined ----
