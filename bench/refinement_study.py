@@ -32,10 +32,12 @@ ROWS = {
     "α and λ `sqrt`, θ `complement-sqrt`, \"matrix\"": SQRT_AXES + GRAZING + KEEP,
     "α and λ `sqrt`, θ `complement-sqrt`, \"roughness-scaled\"":
         SQRT_AXES + GRAZING + ["table.storage=roughness-scaled"] + KEEP,
-    "α and λ `sqrt`, θ `complement-sqrt`, \"mirror-frame\" (`config/perceptual.toml`)":
-        PERCEPTUAL + KEEP,
-    "the same, nodes at α = 0 free": PERCEPTUAL,
-    "the same, 16 queries a cell": PERCEPTUAL + KEEP + ["refine.queries_per_cell=16"],
+    "α and λ `sqrt`, θ `complement-sqrt`, \"mirror-frame\"": PERCEPTUAL + KEEP,
+    "the same, `node_weight` 0.1 (`config/perceptual.toml`)":
+        PERCEPTUAL + KEEP + ["refine.node_weight=0.1"],
+    "perceptual, nodes at α = 0 free": PERCEPTUAL + ["refine.node_weight=0.1"],
+    "perceptual, 16 queries a cell":
+        PERCEPTUAL + KEEP + ["refine.node_weight=0.1", "refine.queries_per_cell=16"],
 }
 
 
