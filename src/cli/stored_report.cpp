@@ -24,8 +24,9 @@ std::string entry_line(const StoredReport& report) {
   std::string text =
       fmt::format("entry    {}: {}", entry_text(table.grid, flat), lobe_text(table.grid, flat));
   if (report.contents.loss)
-    text += fmt::format("\nfile     {}, {} steps, loss {:.4e}", status_word(table.status[flat]),
-                        table.iterations[flat], report.lobe.stated_loss);
+    text += fmt::format("\nfile     {}, {} steps{}, loss {:.4e}", status_word(table.status[flat]),
+                        table.iterations[flat], is_refined(table) ? ", then refined" : "",
+                        report.lobe.stated_loss);
   return text + '\n';
 }
 
