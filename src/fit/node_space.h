@@ -62,7 +62,7 @@ double solid_angle_of_columns(const Eigen::Matrix3d& matrix);
 // time. 3 for a rotation, not finite for a singular matrix.
 double frobenius_condition(const Eigen::Matrix3d& matrix);
 
-// stored + step with third columns of unit length again. Where that would fall below its bound, the
+// stored + step with third columns of unit length again. Where that would pass its bound, the
 // node takes half the step, and half again; tied nodes of equal bounds stay tied.
 std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
                                      const NodeVectors& step,

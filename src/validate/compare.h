@@ -15,7 +15,7 @@ namespace ltc {
 
 struct CompareSettings {
   std::size_t samples = 16384;  // weighted lattice samples of the lobe, and cosine samples
-  std::size_t directions = 64;  // random projection directions
+  std::size_t directions = 64;  // projection directions, evenly spread and turned at random
   std::uint64_t seed = 20220712;
 };
 

@@ -31,8 +31,9 @@ struct PairJudgement {
 // Sorts, never bins: the distance between the two sample sets is exact.
 class HeldOutJudge {
  public:
-  // `samples` weighted lattice samples of the lobe and as many cosine samples, `directions` random
-  // ones; lattices are shifted by the seed, so that they differ from those of any fit.
+  // `samples` weighted lattice samples of the lobe and as many cosine samples, along `directions`
+  // of sample_sets.h's turned ones; the seed shifts the lattices and turns the directions, so that
+  // they differ from those of any fit.
   explicit HeldOutJudge(std::size_t samples = 16384, std::size_t directions = 64,
                         std::uint64_t seed = 20220712);
 
