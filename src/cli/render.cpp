@@ -125,6 +125,19 @@ Destination destination_of(const fs::path& output) {
   return {folder.empty() ? fs::path(".") : folder, output.stem().string()};
 }
 
+// What is wrong with an output, if anything. A folder may have a dot in its name, but one that is
+// called like another picture is a mistake.
+std::string refusal_of_output(const std::string& text) {
+  if (text.empty())
+    return "is empty; expected a folder or a .png";
+  const std::string ending = fs::path(text).extension().string();
+  for (const char* other :
+       {".bmp", ".exr", ".gif", ".jpeg", ".jpg", ".pdf", ".svg", ".tif", ".tiff"})
+    if (ending == other && !fs::is_directory(text))
+      return fmt::format("{} is neither a folder nor a .png", text);
+  return {};
+}
+
 Results render_all(const Arguments& arguments, const std::vector<SphereMaterial>& materials,
                    const Tables& tables, Progress& progress) {
   SphereSettings settings = arguments.settings;
@@ -303,9 +316,7 @@ Action declare_render(CLI::App& app) {
       ->group("How to render");
   app.add_option("-o,--output", arguments->output,
                  "folder for spheres.png and an .exr a material, or the name of the .png [out]")
-      ->check([](const std::string& text) {
-        return std::string(text.empty() ? "is empty; expected a folder or a .png" : "");
-      })
+      ->check(refusal_of_output)
       ->option_text("PATH")
       ->group("Where to write");
   add_threads_option(app, arguments->threads);
