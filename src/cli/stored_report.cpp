@@ -18,14 +18,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string entry_line(const StoredReport& report) {
+std::string entry_line(const StoredReport& report, bool refined) {
   const Table& table = report.table;
   const std::size_t flat = *report.lobe.entry;
   std::string text =
       fmt::format("entry    {}: {}", entry_text(table.grid, flat), lobe_text(table.grid, flat));
   if (report.contents.loss)
     text += fmt::format("\nfile     {}, {} steps{}, loss {:.4e}", status_word(table.status[flat]),
-                        table.iterations[flat], is_refined(table) ? ", then refined" : "",
+                        table.iterations[flat], refined ? ", then refined" : "",
                         report.lobe.stated_loss);
   return text + '\n';
 }
@@ -60,11 +60,12 @@ std::string term_text(double value) {
 std::string report_text(const StoredReport& report) {
   const StoredLobe& lobe = report.lobe;
   const LobeFit& floor = lobe.floor;
+  const bool refined = is_refined(report.table);
   std::string text =
       fmt::format("table    {}, storage {}{}\n", report.file, storage_name(report.table.storage),
-                  is_refined(report.table) ? ", refined after the fit" : "");
+                  refined ? ", refined after the fit" : "");
   text += fmt::format("lobe     {} (degrees)\n", lobe_line(lobe.lobe));
-  text += lobe.entry ? entry_line(report) : nodes_text(report);
+  text += lobe.entry ? entry_line(report, refined) : nodes_text(report);
   text += matrix_text("matrix", lobe.matrix);
   if (lobe.entry && report.table.storage != Storage::matrix)
     text += matrix_text("stored", lobe.stored);

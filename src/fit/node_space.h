@@ -58,8 +58,8 @@ struct SingularityBound {
 // digits when a shader rounds its entries. 1 for orthogonal columns, 0 for a singular matrix.
 double solid_angle_of_columns(const Eigen::Matrix3d& matrix);
 
-// |M| |M^-1| in the Frobenius norm: one to three times the condition number, in a tenth of the
-// time. 3 for a rotation, not finite for a singular matrix.
+// |M| |M^-1| in the Frobenius norm: one to three times the condition number, without its
+// singular values. 3 for a rotation, not finite for a singular matrix.
 double frobenius_condition(const Eigen::Matrix3d& matrix);
 
 // stored + step with third columns of unit length again. Where that would pass its bound, the

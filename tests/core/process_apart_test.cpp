@@ -13,6 +13,7 @@
 #include "core/platform.h"
 #include "export/hdf5_guard.h"
 #include "support/refusal.h"
+#include "support/sanitizer.h"
 #include "support/temporary_directory.h"
 
 namespace ltc {
@@ -74,10 +75,8 @@ TEST(ProcessApart, EndlessWorkAndEndlessMemoryEnd) {
                 },
                 {std::size_t{256} << 20, 1}),
             std::nullopt);
-#ifdef LTCFIT_SANITIZERS
-  if (std::string(LTCFIT_SANITIZERS) == "thread")
+  if (test::under_thread_sanitizer)
     GTEST_SKIP() << "the thread sanitizer gives out memory that it has reserved before the bound";
-#endif
   EXPECT_EQ(platform::in_a_process_apart(
                 [] { return std::string(std::size_t{512} << 20, 'x').substr(0, 1); }, generous),
             std::nullopt);

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "core/angle.h"
 #include "fit/lobes.h"
 #include "fit/starting_points.h"
 #include "statistics.h"
@@ -171,43 +171,38 @@ TEST(GaussNewton, ZeroStepsReturnTheStart) {
   EXPECT_FALSE(descent.converged);
 }
 
+// The held-out loss of what the default settings fit.
+double fitted_loss(const GgxLobe& lobe) {
+  FitRequest request;
+  request.lobe = lobe;
+  const Eigen::Matrix3d m = make_solver({})->fit(request, *make_fit_workspace(), nullptr).matrix;
+  HeldOutJudge judge;
+  judge.set_lobe(lobe);
+  return judge.loss(m);
+}
+
 // Lobes of brushed metal seen obliquely to the brush, alpha_y = 1e-4: they lie on a cone. A matrix
 // whose thin column stays thin is a minimum too, a twentieth above the one that opens; for each of
 // these lobes some setting of damping, smoothing and start led there.
 TEST(GaussNewtonSolver, OpensThinBentLobes) {
-  const std::unique_ptr<Solver> solver = make_solver({});
-  FitWorkspacePointer workspace = make_fit_workspace();
-  const double node = 89.991 / 7 * std::numbers::pi / 180,
-               azimuth = 90.0 / 7 * std::numbers::pi / 180;
+  const double node = radians_of_degrees(89.991 / 7), azimuth = radians_of_degrees(90.0 / 7);
   const struct {
     GgxLobe lobe;
     double reference_loss;  // held out, of config/reference.toml
   } cases[] = {{{3.0 / 7, 1e-4, 2 * node, azimuth}, 6.5623e-3},
                {{4.0 / 7, 1e-4, node, azimuth}, 3.9208e-3},
                {{5.0 / 7, 1e-4, node, azimuth}, 4.1599e-3}};
-  HeldOutJudge judge;
-  for (const auto& [lobe, reference_loss] : cases) {
-    FitRequest request;
-    request.lobe = lobe;
-    const Eigen::Matrix3d m = solver->fit(request, *workspace, nullptr).matrix;
-    judge.set_lobe(lobe);
+  for (const auto& [lobe, reference_loss] : cases)
     // Measured: 1.0022, 1.0027 and 1.0025 times; thin ones had 1.03 to 1.10 times.
-    EXPECT_LT(judge.loss(m), 1.01 * reference_loss) << test::describe(lobe);
-  }
+    EXPECT_LT(fitted_loss(lobe), 1.01 * reference_loss) << test::describe(lobe);
 }
 
 // Near the horizon few samples of a thin lobe have a minimum of their own: on a quarter of them
 // this one ended at 1.062 times the reference's loss.
 TEST(GaussNewtonSolver, SeesThatItFollowedItsSamples) {
-  const std::unique_ptr<Solver> solver = make_solver({});
-  FitWorkspacePointer workspace = make_fit_workspace();
-  FitRequest request;
-  request.lobe = {1, 0.01, 89 * std::numbers::pi / 180, std::numbers::pi / 2};
-  const Eigen::Matrix3d m = solver->fit(request, *workspace, nullptr).matrix;
-  HeldOutJudge judge;
-  judge.set_lobe(request.lobe);
-  constexpr double reference_loss = 2.5065e-3;      // held out, of config/reference.toml
-  EXPECT_LT(judge.loss(m), 1.02 * reference_loss);  // measured: 1.006 times
+  const GgxLobe lobe{1, 0.01, radians_of_degrees(89), radians_of_degrees(90)};
+  constexpr double reference_loss = 2.5065e-3;          // held out, of config/reference.toml
+  EXPECT_LT(fitted_loss(lobe), 1.02 * reference_loss);  // measured: 1.006 times
 }
 
 TEST(GaussNewtonSolver, ReturnsAPositiveDeterminantAndTheSameBitsInAnyWorkspace) {
