@@ -11,6 +11,7 @@
 #include "config/config.h"
 #include "core/error.h"
 #include "support/refusal.h"
+#include "test_paths.h"
 
 namespace ltc {
 namespace {

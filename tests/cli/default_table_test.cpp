@@ -26,6 +26,7 @@
 #include "support/table_faults.h"
 #include "table/lookup.h"
 #include "table/queries.h"
+#include "test_paths.h"
 #include "validate/comparison_summary.h"
 #include "validate/held_out.h"
 

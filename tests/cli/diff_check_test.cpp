@@ -12,6 +12,7 @@
 #include "export/npy.h"
 #include "export/reader.h"
 #include "support/refused_run.h"
+#include "test_paths.h"
 
 namespace ltc::test {
 namespace {

@@ -12,6 +12,7 @@
 #include "export/hdf5.h"
 #include "support/generate_runs.h"
 #include "support/refused_run.h"
+#include "test_paths.h"
 
 namespace ltc::test {
 namespace {

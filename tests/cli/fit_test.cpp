@@ -11,6 +11,7 @@
 #include "export/reader.h"
 #include "support/program.h"
 #include "table/table.h"
+#include "test_paths.h"
 
 namespace ltc::test {
 namespace {

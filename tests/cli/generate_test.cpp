@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include "support/refused_run.h"
+#include "test_paths.h"
 
 namespace ltc::test {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "core/version.h"
 #include "support/program.h"
+#include "test_paths.h"
 
 namespace ltc::test {
 namespace {

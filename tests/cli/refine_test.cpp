@@ -12,6 +12,7 @@
 #include "support/refused_run.h"
 #include "table/lookup.h"
 #include "table/queries.h"
+#include "test_paths.h"
 #include "validate/held_out.h"
 
 namespace ltc::test {

@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "support/generate_runs.h"
 #include "support/refused_run.h"
+#include "test_paths.h"
 
 namespace ltc::test {
 namespace {

@@ -17,6 +17,7 @@
 #include "scene/scene.h"
 #include "support/refused_run.h"
 #include "table/synthetic.h"
+#include "test_paths.h"
 
 namespace ltc::test {
 namespace {

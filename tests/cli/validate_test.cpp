@@ -11,6 +11,7 @@
 #include "support/broken_table.h"
 #include "support/reference.h"
 #include "support/refused_run.h"
+#include "test_paths.h"
 
 namespace ltc::test {
 namespace {

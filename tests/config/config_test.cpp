@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "support/refusal.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 namespace ltc {
 namespace {

@@ -14,6 +14,7 @@
 #include "fit/same_fits.h"
 #include "support/refusal.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 namespace ltc {
 namespace {

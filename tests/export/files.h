@@ -13,6 +13,8 @@
 #include <iterator>
 #include <string>
 
+#include "test_paths.h"
+
 namespace ltc::testing {
 
 class TemporaryFolder {

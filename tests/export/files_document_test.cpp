@@ -12,6 +12,7 @@
 #include "export/hdf5.h"
 #include "table/lookup.h"
 #include "table/synthetic.h"
+#include "test_paths.h"
 
 namespace ltc {
 namespace {

@@ -18,6 +18,7 @@
 #include "export/files.h"
 #include "export/same_tables.h"
 #include "table/synthetic.h"
+#include "test_paths.h"
 
 namespace ltc {
 namespace {

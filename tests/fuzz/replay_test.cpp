@@ -12,6 +12,7 @@
 #include "fuzz/hdf5_checksums.h"
 #include "fuzz/readers.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 namespace ltc {
 namespace {

@@ -12,6 +12,7 @@
 #include "scene/scene.h"
 #include "support/reference.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 namespace ltc {
 namespace {

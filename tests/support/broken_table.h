@@ -9,6 +9,7 @@
 #include <string>
 
 #include "support/program.h"
+#include "test_paths.h"
 
 namespace ltc::test {
 

@@ -13,6 +13,7 @@
 
 #include "export/hdf5.h"
 #include "support/program.h"
+#include "test_paths.h"
 
 namespace ltc::test::runs {
 

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "test_paths.h"
+
 extern char** environ;
 
 namespace ltc::test {

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "test_paths.h"
+
 namespace ltc::test {
 
 // In the folder LTCFIT_REFERENCE_DIR, else in ../shared/reference beside the sources; it may be

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
+#include "test_paths.h"
 #include "validate/validate_settings.h"
 
 #include <gtest/gtest.h>
