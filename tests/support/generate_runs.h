@@ -7,6 +7,7 @@
 #include <signal.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -60,6 +61,12 @@ inline const Arguments endless =
     grid_of("2") + Arguments{"--config",  LTCFIT_SOURCE_DIR "/config/paper.toml",
                              "--set",     "fit.sgd.steps=10000000",
                              "--threads", "2"};
+// Fits of a twentieth of a second each, a quarter of an hour in all: something else ends it,
+// however busy the machine.
+inline const Arguments lengthy =
+    grid_of("12") + Arguments{"--config",  LTCFIT_SOURCE_DIR "/config/sgd.toml",
+                              "--set",     "fit.sgd.steps=750",
+                              "--threads", "1"};
 
 // All files of a folder; in HDF5, the time of creation blanked.
 inline Files files_in(const std::filesystem::path& folder) {
@@ -106,13 +113,24 @@ inline Arguments command(const Arguments& arguments) {
   return Arguments{LTCFIT_PROGRAM} + arguments;
 }
 
-// Leaves a checkpoint of the run in the folder, and its bytes.
-inline std::string leave_checkpoint(const Arguments& run, const std::filesystem::path& folder) {
-  RunningProgram program(command(generate(run)), folder);
+// Leaves a checkpoint of the lengthy run in the folder, and its bytes.
+inline std::string leave_checkpoint(const std::filesystem::path& folder) {
+  RunningProgram program(command(generate(lengthy)), folder);
   EXPECT_TRUE(wait_for_new_checkpoint(program, folder / checkpoint, ""));
   program.send_signal(SIGKILL);
   EXPECT_EQ(program.wait(limit).exit_code, 128 + SIGKILL);
   return read_file(folder / checkpoint);
+}
+
+// Tries again where a run of a part of a second was done before this process, on a busy machine,
+// got round to disturbing it: that is no trial. Only a program that cannot be disturbed, or a trial
+// that disturbs nothing, exhausts the tries.
+inline void until_disturbed(const std::function<bool()>& trial) {
+  constexpr int most_tries = 100;
+  for (int tries = 0; tries < most_tries; ++tries)
+    if (trial() || ::testing::Test::HasFailure())
+      return;
+  FAIL() << "none of " << most_tries << " runs could be disturbed before its end";
 }
 
 // As it stood: nothing added, nothing changed.

@@ -37,14 +37,14 @@ TEST(RunProgram, RefusesAProgramThatIsNotThere) {
 
 TEST(RunningProgram, SeesTextAndSignals) {
   RunningProgram program({"sh", "-c", "echo ready >&2; exec sleep 100"});
-  ASSERT_TRUE(program.wait_for_error_text("ready", std::chrono::seconds(30)));
+  ASSERT_TRUE(program.wait_for_error_text("ready", patience));
   program.send_signal(SIGTERM);
-  EXPECT_EQ(program.wait(std::chrono::seconds(30)).exit_code, 128 + SIGTERM);
+  EXPECT_EQ(program.wait(patience).exit_code, 128 + SIGTERM);
 }
 
 TEST(RunningProgram, SaysWhenTheTextNeverCame) {
   RunningProgram program({"true"});
-  EXPECT_FALSE(program.wait_for_error_text("ready", std::chrono::seconds(30)));
+  EXPECT_FALSE(program.wait_for_error_text("ready", patience));
 }
 
 TEST(RunningProgram, KillsWhatRunsTooLong) {
