@@ -10,8 +10,8 @@ build_packages=(
   libfmt-dev libpng-dev nlohmann-json3-dev libbenchmark-dev
   libcairo2-dev fonts-dejavu-core libnlopt-cxx-dev libnlopt-dev
 )
-# Readers by others, which the tests check our files with.
-test_packages=(hdf5-tools openexr python3-h5py python3-numpy)
+# Readers and compilers by others, which the tests check our files and snippets with.
+test_packages=(hdf5-tools openexr python3-h5py python3-numpy glslang-tools)
 
 say() { echo "== $*" >&2; }
 
