@@ -13,6 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
+#include "cli/scene_file.h"
 #include "cli/stored_report.h"
 #include "core/angle.h"
 #include "core/error.h"
@@ -22,7 +23,6 @@
 #include "export/reader.h"
 #include "fit/symmetry_plan.h"
 #include "scene/coverage.h"
-#include "scene/scene.h"
 #include "table/lookup.h"
 #include "validate/lobe_picture.h"
 
@@ -168,7 +168,7 @@ Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const
 // whose config is taken.
 std::vector<bool> needed_with(const Arguments& arguments, const Config& config) {
   if (!arguments.scene.empty())
-    return needed_entries(load_scene(arguments.scene), config.grid);
+    return needed_entries(load_scene_and_warn(arguments.scene), config.grid);
   std::vector<bool> needed(config.grid.size(), true);
   const std::optional<std::filesystem::path> file = arguments.config.path();
   if (!file || file->extension() != ".h5")

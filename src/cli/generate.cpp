@@ -17,6 +17,7 @@
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/scene_file.h"
 #include "cli/summary.h"
 #include "core/error.h"
 #include "core/platform.h"
@@ -26,7 +27,6 @@
 #include "export/reader.h"
 #include "scene/coverage.h"
 #include "scene/query_ranges.h"
-#include "scene/scene.h"
 #include "table/entry_text.h"
 #include "table/extend.h"
 
@@ -116,7 +116,7 @@ Work plan_work(const Arguments& arguments, const Config& config) {
   Work work;
   work.needed.assign(config.grid.size(), true);
   if (!arguments.scene.empty()) {
-    const Scene scene = load_scene(arguments.scene);
+    const Scene scene = load_scene_and_warn(arguments.scene);
     work.needed = needed_entries(scene, config.grid);
     work.asked = query_ranges(scene);
   }

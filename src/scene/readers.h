@@ -13,8 +13,8 @@ namespace ltc {
 Scene load_toml_scene(const std::filesystem::path& file);
 
 // The materials of a glTF 2.0 file: JSON, or the JSON chunk of the binary form, either of at most
-// 256 MiB. Neither buffers nor images are opened. A texture on a factor means all values from 0 to
-// the factor.
+// 256 MiB. No image is opened, and of buffers only what animations of roughness need. A texture on
+// a factor means all values from 0 to the factor.
 Scene load_gltf_scene(const std::filesystem::path& file);
 
 }  // namespace ltc

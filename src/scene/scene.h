@@ -41,7 +41,8 @@ struct Material {
 };
 
 struct Scene {
-  std::vector<Material> materials;  // at least one
+  std::vector<Material> materials;         // at least one
+  std::vector<std::string> warnings = {};  // what a user should know of the file, a line each
 };
 
 // The mapping of glTF's KHR_materials_anisotropy: with alpha = roughness^2, along the tangent

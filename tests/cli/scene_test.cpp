@@ -281,5 +281,21 @@ TEST(GenerateExtendBadInput, FilesThatAreNoTable) {
                  {"other_format.h5", "format is \"lut\""});
 }
 
+// ---- What a scene's file is warned of ----
+
+TEST(SceneWarnings, AreToldALineEach) {
+  const TemporaryDirectory folder;
+  folder.write("odd.gltf", R"({"asset": {"version": "2.0"},
+      "cameras": [1e309], "extensionsUsed": ["NV_materials_mdl"],
+      "materials": [{"pbrMetallicRoughness": {"roughnessFactor": 0.5}}]})");
+  const ProgramResult result =
+      run_ltcfit(generate({"--scene", "odd.gltf", "--output", "out"}), folder.path());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("ltcfit: warning: odd.gltf: left out 1 number too large for a double\n"
+                            "ltcfit: warning: odd.gltf: NV_materials_mdl may change"),
+            std::string::npos)
+      << result.err;
+}
+
 }  // namespace
 }  // namespace ltc::test

@@ -245,7 +245,24 @@ def gltf_seeds(folder):
              "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyTexture": {"index": 1}}}}],
         "nodes": [{"children": [0]}], "buffers": [{"byteLength": 1 << 60}]}
     text = json.dumps(good).encode()
+    # Every extension that is followed, animated by values in a buffer.
+    coat = "/materials/0/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor"
+    all_keys = {
+        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_animation_pointer"],
+        "materials": [{"extensions": {
+            "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessTexture": {"index": 0}},
+            "KHR_materials_pbrSpecularGlossiness": {"glossinessFactor": 0.5},
+            "MSFT_packing_normalRoughnessMetallic": {"normalRoughnessMetallicTexture": {"index": 0}}}},
+            {"extensions": {"KHR_materials_unlit": {}}}],
+        "meshes": [{"primitives": [{"mode": 0, "attributes": {"NORMAL": 0}}, {"material": 0}]}],
+        "animations": [{"samplers": [{"output": 0, "interpolation": "STEP"}], "channels": [
+            {"sampler": 0, "target": {"path": "pointer", "extensions": {
+                "KHR_animation_pointer": {"pointer": coat}}}}]}],
+        "accessors": [{"componentType": 5126, "type": "SCALAR", "count": 2, "bufferView": 0}],
+        "bufferViews": [{"buffer": 0, "byteLength": 8, "byteStride": 4}],
+        "buffers": [{"uri": "data:;base64,zczMPc3MTD4="}]}
     lies = {
+        "all_keys.gltf": json.dumps(all_keys).encode(),
         "good.gltf": text,
         "good.glb": glb(text),
         "nan.gltf": text.replace(b"0.3", b"NaN"),

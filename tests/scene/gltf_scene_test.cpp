@@ -30,10 +30,24 @@ Scene load_text(const std::string& text) {
   return load_scene(folder.write("scene.gltf", text));
 }
 
+PerceptualRoughness roughness_of(const Material& material) {
+  return std::get<PerceptualRoughness>(material.roughness);
+}
+
+PerceptualRoughness only_material(const Scene& scene) {
+  EXPECT_EQ(scene.materials.size(), 1u);
+  return roughness_of(scene.materials.at(0));
+}
+
+void expect_one_warning(const Scene& scene, const std::vector<std::string>& parts) {
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  test::expect_one_line(scene.warnings[0], parts);
+}
+
 PerceptualRoughness load_material(const std::string& material) {
   const Scene scene = load_text(gltf("[" + material + "]"));
-  EXPECT_EQ(scene.materials.size(), 1u);
-  return std::get<PerceptualRoughness>(scene.materials.at(0).roughness);
+  EXPECT_TRUE(scene.warnings.empty());
+  return only_material(scene);
 }
 
 void expect_file_refused(const char* name, const std::string& content,
@@ -57,9 +71,8 @@ void expect_material_refused(const std::string& material, const std::vector<std:
 
 TEST(GltfScene, DefaultsAreThoseOfTheFormat) {
   EXPECT_EQ(load_material("{}"), (PerceptualRoughness{{1, 1}, {0, 0}}));
-  EXPECT_EQ(
-      load_material(R"({"pbrMetallicRoughness": {}, "extensions": {"KHR_materials_unlit": {}}})"),
-      (PerceptualRoughness{{1, 1}, {0, 0}}));
+  EXPECT_EQ(load_material(R"({"pbrMetallicRoughness": {}, "extensions": {}})"),
+            (PerceptualRoughness{{1, 1}, {0, 0}}));
 }
 
 TEST(GltfScene, FactorsAreRead) {
@@ -88,6 +101,7 @@ TEST(GltfScene, TheBarnLampReads) {
   EXPECT_EQ(load_scene(file).materials,
             (std::vector<Material>{
                 {"Lamp Metal", PerceptualRoughness{{0, 1}, {0, 1}}, all},
+                {"Lamp Metal (clear coat)", PerceptualRoughness{{0.15, 0.15}, {0, 0}}, all},
                 {"Lamp Filament", PerceptualRoughness{{0.7, 0.7}, {0, 0}}, all},
                 {"Lamp Glass", PerceptualRoughness{{0, 0}, {0, 0}}, all},
             }));
@@ -163,8 +177,11 @@ TEST(GltfScene, MessagesStayShort) {
 }
 
 TEST(GltfScene, NumbersAndNestingBeyondReasonAreRefused) {
-  expect_refused(gltf(R"([{"pbrMetallicRoughness": {"roughnessFactor": 1e999}}])"),
-                 {"a number is too large"});
+  for (const char* number : {"1e999", "-1e999"})
+    expect_refused(fmt::format(R"({{"asset": {{"version": "2.0"}},
+                        "materials": [{{"pbrMetallicRoughness": {{"roughnessFactor": {}}}}}]}})",
+                               number),
+                   {"roughnessFactor = \"1e999\": expected a number in [0, 1]"});
   for (const int levels : {100, 1000000}) {
     const std::string nested = std::string(levels, '[') + std::string(levels, ']');
     expect_refused(gltf("[{}]").insert(1, "\"extras\": " + nested + ", "), {"deeper than 64"});
@@ -225,7 +242,8 @@ TEST(GltfScene, DamagedBinaryFilesAreRefused) {
   expect_glb_refused(with([](Glb& g) { g.magic = "glTf"; }), {"does not begin with \"glTF\""});
   expect_glb_refused(with([](Glb& g) { g.version = 1; }), {"version 1", "version 2"});
   expect_glb_refused(with([](Glb& g) { g.length = 4000000000u; }), {"truncated", "4000000000"});
-  expect_glb_refused(with([](Glb& g) { g.length = 25; }), {"damaged", "25 bytes"});
+  expect_glb_refused(with([](Glb& g) { g.length = 19; }), {"damaged", "19 bytes"});
+  expect_glb_refused(with([](Glb& g) { g.length = 25; }), {"damaged", "5 are left"});
   expect_glb_refused(with([](Glb& g) { g.json_bytes = 4294967295u; }), {"4294967295", "left"});
   expect_glb_refused(with([](Glb& g) { g.json_bytes = 10; }), {"not JSON"});
   expect_glb_refused(with([](Glb& g) { g.chunk_type = "BIN "; }), {"type JSON"});
@@ -234,7 +252,13 @@ TEST(GltfScene, DamagedBinaryFilesAreRefused) {
   const std::string whole = Glb{}.bytes();
   for (std::size_t size = 0; size < whole.size(); ++size)
     expect_file_refused("bad.glb", whole.substr(0, size), {"truncated"});
-  expect_file_refused("bad.glb", whole + "x", {"damaged"});
+}
+
+TEST(GltfScene, BytesAfterTheEndOfABinaryFileAreLeftOutWithAWarning) {
+  const TemporaryDirectory folder;
+  const Scene scene = load_scene(folder.write("long.glb", Glb{}.bytes() + "x"));
+  EXPECT_EQ(only_material(scene), (PerceptualRoughness{{0.5, 0.5}, {0, 0}}));
+  expect_one_warning(scene, {"long.glb", "left out what follows"});
 }
 
 // 256 MiB are too many to write in a test; a file with a hole has the size without the bytes.
