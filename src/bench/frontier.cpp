@@ -188,11 +188,11 @@ double least_loss(const FrontierRun& run, std::size_t place) {
 }
 
 // The worst entry is one of the grid, not of the task's list.
-RatioSummary ratios_at(const FrontierTask& task, const std::vector<EntryComparison>& comparisons,
-                       const std::vector<bool>& include = {}) {
-  RatioSummary summary = summarize_ratios(comparisons, include);
-  if (summary.entries > 0)
-    summary.largest_entry = task.entries[summary.largest_entry];
+Statistics ratios_at(const FrontierTask& task, const std::vector<EntryComparison>& comparisons,
+                     const std::vector<bool>& include = {}) {
+  Statistics summary = ratio_statistics(comparisons, include);
+  if (summary.count > 0)
+    summary.largest_index = task.entries[summary.largest_index];
   return summary;
 }
 

@@ -61,10 +61,10 @@ struct SettingSummary {
   double table_seconds = 0;                     // the mean times all fitted entries of the grid
   bool extrapolated = false;                    // from the first steps
   ErrorSource error_source = ErrorSource::own_fits;
-  RatioSummary ratios;  // held-out loss over the reference's, of the judged and finite
+  Statistics ratios;  // held-out loss over the reference's, of the judged and finite
   // Of these, the lobes above alpha_min. Those at it are as good as mirrors, and a fit that misses
   // them at all misses them by many times their width, which drowns all else in a mean.
-  RatioSummary rough_ratios;
+  Statistics rough_ratios;
   std::size_t judged = 0;    // entries with a matrix, finite or not
   std::size_t failures = 0;  // of these, those without a finite matrix
 };

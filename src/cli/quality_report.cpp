@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string row_text(const char* what, const Distribution& d) {
+std::string row_text(const char* what, const Statistics& d) {
   if (d.count == 0)
     return fmt::format("{:<36} {:>6}\n", what, 0);
   return fmt::format("{:<36} {:>6} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}\n", what,
@@ -84,7 +84,7 @@ std::string thresholds_text(const std::vector<ThresholdCheck>& thresholds) {
   return text;
 }
 
-Json json_of(const Distribution& d) {
+Json json_of(const Statistics& d) {
   return {{"count", d.count},
           {"mean", d.mean},
           {"standard_error", d.standard_error},

@@ -122,7 +122,7 @@ std::string checks(const Validation& validation) {
   return "<h2>Checks</h2>\n" + html::table(invariants) + html::table(thresholds);
 }
 
-std::vector<std::string> figures_row(const char* what, const Distribution& figures, int decimals) {
+std::vector<std::string> figures_row(const char* what, const Statistics& figures, int decimals) {
   return {what,
           fmt::format("{}", figures.count),
           number(figures.mean, decimals),

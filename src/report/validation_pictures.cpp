@@ -57,7 +57,7 @@ picture::CellMark mark_of(const Grid& grid, std::size_t flat) {
 NamedPicture map_of(const Validation& validation, const std::vector<double>& values,
                     const std::string& title, const std::string& unit, ScaleKind kind, bool mark) {
   const Grid& grid = validation.table.grid;
-  const Distribution figures = distribution(values);
+  const Statistics figures = statistics_of(values);
   picture::ColorScale colors{.scale = picture::Scale::around(values, kind, 0), .title = unit};
   picture::TiledMap map = table_map(grid, values, colors);
   map.words.title = title;

@@ -12,7 +12,6 @@
 #include "align/align.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "validate/held_out.h"
 
 namespace ltc {
 namespace {
@@ -49,6 +48,12 @@ std::vector<std::size_t> first_of_same(const Table& a, const Table& b) {
   return result;
 }
 
+double difference(float a, float b) {
+  return std::abs(static_cast<double>(a) - static_cast<double>(b));
+}
+
+}  // namespace
+
 EntryComparison compare_lobes(const GgxLobe& lobe, const Eigen::Matrix3d& a,
                               const Eigen::Matrix3d& b, HeldOutJudge& judge) {
   const bool both = a.allFinite() && b.allFinite();
@@ -61,12 +66,6 @@ EntryComparison compare_lobes(const GgxLobe& lobe, const Eigen::Matrix3d& a,
                                   .maxCoeff<Eigen::PropagateNaN>();
   return entry;
 }
-
-double difference(float a, float b) {
-  return std::abs(static_cast<double>(a) - static_cast<double>(b));
-}
-
-}  // namespace
 
 void require_same_grid(const Grid& a, const Grid& b) {
   if (a == b)

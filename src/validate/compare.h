@@ -10,6 +10,7 @@
 
 #include "core/progress.h"
 #include "table/table.h"
+#include "validate/held_out.h"
 
 namespace ltc {
 
@@ -37,6 +38,10 @@ struct EntryComparison {
   double ratio() const { return loss_a / loss_b; }
   double relative_distance() const { return distance / spread; }
 };
+
+// What the matrices of A and B are to a lobe and to each other; no terms.
+EntryComparison compare_lobes(const GgxLobe& lobe, const Eigen::Matrix3d& a,
+                              const Eigen::Matrix3d& b, HeldOutJudge& judge);
 
 // Throws InputError, naming the difference, unless the two grids are the same.
 void require_same_grid(const Grid& a, const Grid& b);

@@ -6,9 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "core/quantile.h"
 
 namespace ltc {
 namespace {
@@ -43,41 +40,18 @@ ComparisonRow summarize_row(std::string name, const std::vector<EntryComparison>
 
 }  // namespace
 
-Statistics statistics_of(std::span<const double> values, const std::vector<bool>& include) {
-  Statistics statistics;
-  std::vector<double> sorted;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i]) || !(include.empty() || include[i]))
-      continue;
-    if (sorted.empty() || values[i] > statistics.largest) {
-      statistics.largest = values[i];
-      statistics.largest_index = i;
-    }
-    sorted.push_back(values[i]);
-  }
-  statistics.count = sorted.size();
-  if (sorted.empty())
-    return statistics;
-  statistics.mean =
-      std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size());
-  std::sort(sorted.begin(), sorted.end());
-  statistics.p50 = quantile(sorted, 0.5);
-  statistics.p95 = quantile(sorted, 0.95);
-  statistics.p99 = quantile(sorted, 0.99);
-  return statistics;
-}
-
-RatioSummary summarize_ratios(const std::vector<EntryComparison>& entries,
-                              const std::vector<bool>& include) {
-  const ComparisonRow row =
-      summarize_row("", entries, include.empty() ? std::vector(entries.size(), true) : include);
-  const Statistics& ratio = row.ratio;
-  return {row.entries,   ratio.mean,      ratio.p50,       ratio.p95,          ratio.p99,
-          ratio.largest, row.loss_a.mean, row.loss_b.mean, ratio.largest_index};
+Statistics ratio_statistics(const std::vector<EntryComparison>& entries,
+                            const std::vector<bool>& include) {
+  return summarize_row("", entries, include.empty() ? std::vector(entries.size(), true) : include)
+      .ratio;
 }
 
 bool is_mirror(const Grid& grid, std::size_t alpha_index) {
   return grid.alpha.nodes[alpha_index] <= grid.alpha_min;
+}
+
+bool has_mirrors_and_others(const Grid& grid) {
+  return is_mirror(grid, 0) && !is_mirror(grid, grid.alpha.size() - 1);
 }
 
 std::vector<ComparisonRow> summarize_rows(const Grid& grid,
@@ -91,7 +65,7 @@ std::vector<ComparisonRow> summarize_rows(const Grid& grid,
   };
   const std::vector<double>& alpha = grid.alpha.nodes;
   add("all", [](std::size_t) { return true; });
-  if (is_mirror(grid, 0) && !is_mirror(grid, alpha.size() - 1))
+  if (has_mirrors_and_others(grid))
     add("alpha > min", [&](std::size_t plane) { return !is_mirror(grid, plane); });
   for (std::size_t own = 0; own < alpha.size(); ++own)
     add(fmt::format("alpha {:.3f}", alpha[own]), [&](std::size_t plane) { return plane == own; });

@@ -10,30 +10,14 @@
 
 #include "table/grid.h"
 #include "validate/compare.h"
+#include "validate/statistics.h"
 
 namespace ltc {
 
-// Of those values that are finite and included; all 0 if there are none.
-struct Statistics {
-  std::size_t count = 0;
-  double mean = 0, p50 = 0, p95 = 0, p99 = 0, largest = 0;
-  std::size_t largest_index = 0;
-};
-
-// pNN is the least value that at least NN % of the values do not exceed. Over the values `include`
-// is true for; all where it is empty.
-Statistics statistics_of(std::span<const double> values, const std::vector<bool>& include = {});
-
-// Statistics of the ratio loss_a / loss_b over the entries that both tables have.
-struct RatioSummary {
-  std::size_t entries = 0;
-  double mean = 0, p50 = 0, p95 = 0, p99 = 0, largest = 0;
-  double mean_loss_a = 0, mean_loss_b = 0;
-  std::size_t largest_entry = 0;  // flat index
-};
-// Over the entries `include` is true for; all where it is empty.
-RatioSummary summarize_ratios(const std::vector<EntryComparison>& entries,
-                              const std::vector<bool>& include = {});
+// Of the ratio loss_a / loss_b over the entries that both tables have and `include` is true for; of
+// all where it is empty.
+Statistics ratio_statistics(const std::vector<EntryComparison>& entries,
+                            const std::vector<bool>& include = {});
 
 // A part of the table, and what its entries add up to.
 struct ComparisonRow {
@@ -47,6 +31,9 @@ struct ComparisonRow {
 
 // Whether a plane's lobes are the sharpest of the table, alpha <= alpha_min: mirrors, to a person.
 bool is_mirror(const Grid& grid, std::size_t alpha_index);
+
+// Whether both kinds of plane exist.
+bool has_mirrors_and_others(const Grid& grid);
 
 // The whole table; what is left without mirrors, where both kinds of plane exist; every plane of
 // alpha.

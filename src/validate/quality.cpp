@@ -15,8 +15,6 @@
 #include "core/random.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
-#include "table/lookup.h"
-#include "validate/held_out.h"
 #include "validate/quality_summary.h"
 
 namespace ltc {
@@ -39,17 +37,8 @@ void check(const QualitySettings& settings) {
                                  range.roughness_first, range.roughness_last));
 }
 
-AreaLightSettings area_light_settings(const QualitySettings& settings) {
-  return {settings.quads, settings.quad_samples, settings.seed};
-}
-
-// Directions drawn once for all would err alike for every lobe, and the mean with them: 32 of them
-// by 4 %, and 16 rectangles by 6 %. So every lobe has its own, the same whichever table is judged.
 HeldOutJudge node_judge(const QualitySettings& settings, std::size_t flat) {
   return HeldOutJudge(settings.node_samples, settings.node_directions, settings.seed + flat);
-}
-HeldOutJudge query_judge(const QualitySettings& settings, std::size_t query) {
-  return HeldOutJudge(settings.query_samples, settings.query_directions, settings.seed + query);
 }
 
 // By judge_pair, which holds one direction at a time: what set_lobe would keep of all of them is
@@ -66,11 +55,9 @@ QueryQuality left_out(QueryState state) {
 
 QueryQuality judge_query(const Table& table, const QualitySettings& settings,
                          const QueryFloor& floor, std::size_t query, AreaLightJudge& area_light) {
-  if (!covers(table.grid, fold(floor.lobe).lobe))
-    return left_out(QueryState::outside);
-  const LookUp found = look_up(table, floor.lobe);
-  if (!found.matrix.allFinite())
-    return left_out(QueryState::missing);
+  const auto [state, found] = ask(table, floor.lobe);
+  if (state != QueryState::judged)
+    return left_out(state);
   area_light.set_lobe(floor.lobe, query);
   return {QueryState::judged, relative_loss(query_judge(settings, query), floor.lobe, found.matrix),
           area_light.error(found.matrix), area_light.error(found.matrix, found.amplitude)};
@@ -109,7 +96,7 @@ std::vector<QueryQuality> judge_queries(const Table& table, const QualitySetting
                                         const std::vector<QueryFloor>& floors, int threads,
                                         Progress* progress) {
   std::vector<QueryQuality> queries(floors.size());
-  const AreaLightJudge prototype(area_light_settings(settings));
+  const AreaLightJudge prototype = area_light_judge(settings);
   parallel_for_each<AreaLightJudge>(
       "judge queries", queries.size(), threads, progress, [&] { return prototype; },
       [&](std::size_t i, AreaLightJudge& area_light) {
@@ -119,6 +106,22 @@ std::vector<QueryQuality> judge_queries(const Table& table, const QualitySetting
 }
 
 }  // namespace
+
+HeldOutJudge query_judge(const QualitySettings& settings, std::size_t query) {
+  return HeldOutJudge(settings.query_samples, settings.query_directions, settings.seed + query);
+}
+
+AreaLightJudge area_light_judge(const QualitySettings& settings) {
+  return AreaLightJudge({settings.quads, settings.quad_samples, settings.seed});
+}
+
+Answer ask(const Table& table, const GgxLobe& lobe) {
+  const LookUp found = look_up(table, lobe);
+  const QueryState state = !covers(table.grid, fold(lobe).lobe) ? QueryState::outside
+                           : !found.matrix.allFinite()          ? QueryState::missing
+                                                                : QueryState::judged;
+  return {state, found};
+}
 
 FitSettings floor_fit_settings() {
   FitSettings settings;
@@ -139,7 +142,7 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alph
     FitWorkspacePointer workspace;
     AreaLightJudge area_light;
   };
-  const AreaLightJudge prototype(area_light_settings(settings));
+  const AreaLightJudge prototype = area_light_judge(settings);
   parallel_for_each<State>(
       "fit queries", lobes.size(), threads, progress,
       [&] {

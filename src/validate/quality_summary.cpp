@@ -8,10 +8,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 
 #include "core/angle.h"
-#include "core/quantile.h"
 #include "core/shell_quoted.h"
 
 namespace ltc {
@@ -106,10 +104,10 @@ Band band_of(const QualityReport& report, const BandedParameter& parameter, doub
   return {first,
           last,
           table.size(),
-          distribution(table).mean,
-          distribution(floor).mean,
-          distribution(table_light).mean,
-          distribution(floor_light).mean};
+          statistics_of(table).mean,
+          statistics_of(floor).mean,
+          statistics_of(table_light).mean,
+          statistics_of(floor_light).mean};
 }
 
 std::vector<Bands> all_bands(const QualityReport& report) {
@@ -146,49 +144,21 @@ std::vector<std::size_t> worst_queries(const QualityReport& report) {
 
 }  // namespace
 
-Distribution distribution(const std::vector<double>& values) {
-  Distribution result{0, nan, nan, nan, nan, nan, nan, 0};
-  std::vector<double> sorted;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isnan(values[i]))
-      continue;
-    if (sorted.empty() || values[i] > values[result.largest_index])
-      result.largest_index = i;
-    sorted.push_back(values[i]);
-  }
-  if (sorted.empty())
-    return result;
-  result.count = sorted.size();
-  const auto count = static_cast<double>(sorted.size());
-  result.mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / count;
-  double squares = 0;
-  for (const double value : sorted)
-    squares += (value - result.mean) * (value - result.mean);
-  if (sorted.size() > 1)
-    result.standard_error = std::sqrt(squares / (count - 1) / count);
-  std::sort(sorted.begin(), sorted.end());
-  result.p50 = quantile(sorted, 0.5);
-  result.p95 = quantile(sorted, 0.95);
-  result.p99 = quantile(sorted, 0.99);
-  result.largest = sorted.back();
-  return result;
-}
-
 void summarize_quality(QualityReport& report) {
   const auto& queries = report.queries;
   const auto& floors = report.floors;
-  report.nodes = distribution(report.node_losses);
+  report.nodes = statistics_of(report.node_losses);
   count_states(report);
   report.query_losses =
-      distribution(of_judged(report, [&](auto i) { return queries[i].relative_loss; }));
+      statistics_of(of_judged(report, [&](auto i) { return queries[i].relative_loss; }));
   report.floor_losses =
-      distribution(of_judged(report, [&](auto i) { return floors[i].relative_loss; }));
+      statistics_of(of_judged(report, [&](auto i) { return floors[i].relative_loss; }));
   report.area_light =
-      distribution(of_judged(report, [&](auto i) { return queries[i].area_light.mean_absolute; }));
-  report.area_light_with_amplitude = distribution(of_judged(
+      statistics_of(of_judged(report, [&](auto i) { return queries[i].area_light.mean_absolute; }));
+  report.area_light_with_amplitude = statistics_of(of_judged(
       report, [&](auto i) { return queries[i].area_light_with_amplitude.mean_absolute; }));
   report.floor_area_light =
-      distribution(of_judged(report, [&](auto i) { return floors[i].area_light.mean_absolute; }));
+      statistics_of(of_judged(report, [&](auto i) { return floors[i].area_light.mean_absolute; }));
   set_noise(report);
   report.bands = all_bands(report);
   report.worst_queries = worst_queries(report);

@@ -26,10 +26,12 @@ double color_bound(const Grid& grid, const std::vector<EntryComparison>& entries
   const bool only_mirrors = is_mirror(grid, grid.alpha.size() - 1);
   std::vector<bool> counts(entries.size());
   for (std::size_t flat = 0; flat < entries.size(); ++flat)
-    counts[flat] = only_mirrors || !is_mirror(grid, grid.node(flat).alpha);
+    counts[flat] = std::isfinite(entries[flat].ratio()) &&
+                   (only_mirrors || !is_mirror(grid, grid.node(flat).alpha));
   const std::vector<double> factors = figures_of(
       entries, [](const EntryComparison& e) { return std::exp(std::abs(std::log(e.ratio()))); });
-  return rounded_bound(statistics_of(factors, counts).p99);
+  const Statistics statistics = statistics_of(factors, counts);
+  return rounded_bound(statistics.count > 0 ? statistics.p99 : 1);
 }
 
 std::string row_text(const ComparisonRow& row) {

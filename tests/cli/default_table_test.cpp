@@ -94,8 +94,8 @@ void expect_readable_by_others(const fs::path& folder) {
 
 // ---- Accuracy ----
 
-// A reduced config/reference.toml: four times the samples of the default, twice its directions and
-// starts, eight times its target.
+// A reduced config/reference.toml: the samples of the default, twice its directions, four times its
+// starts and its target.
 FitSettings reference_settings() {
   FitSettings settings;
   settings.gauss_newton.coarse_samples = 512;
@@ -152,8 +152,8 @@ std::vector<Eigen::Matrix3d> reference_matrices(const Table& table,
   return matrices;
 }
 
-RatioSummary ratios_to(const std::vector<Eigen::Matrix3d>& reference, const Table& table,
-                       const std::vector<std::size_t>& entries) {
+Statistics ratios_to(const std::vector<Eigen::Matrix3d>& reference, const Table& table,
+                     const std::vector<std::size_t>& entries) {
   HeldOutJudge judge = prototype;
   std::vector<EntryComparison> comparisons(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -161,7 +161,7 @@ RatioSummary ratios_to(const std::vector<Eigen::Matrix3d>& reference, const Tabl
     comparisons[i] = {held_out_loss(judge, lobe, table.matrix_at(entries[i])),
                       held_out_loss(judge, lobe, reference[i]), judge.spread()};
   }
-  return summarize_ratios(comparisons);
+  return ratio_statistics(comparisons);
 }
 
 // The practical setting of the stochastic descent, at the same entries.
@@ -180,14 +180,14 @@ void expect_near_reference(const Table& table) {
   const std::vector<std::size_t> entries = stratified_entries(table);
   ASSERT_EQ(entries.size(), 61u);
   const std::vector<Eigen::Matrix3d> reference = reference_matrices(table, entries);
-  const RatioSummary ratios = ratios_to(reference, table, entries);
-  EXPECT_EQ(ratios.entries, entries.size());
+  const Statistics ratios = ratios_to(reference, table, entries);
+  EXPECT_EQ(ratios.count, entries.size());
   // What the project promises for the whole grid. Measured: 1.0008 and 1.019.
   EXPECT_LE(ratios.mean, 1.01);
-  EXPECT_LE(ratios.largest, 1.15) << "entry " << entries[ratios.largest_entry];
+  EXPECT_LE(ratios.largest, 1.15) << "entry " << entries[ratios.largest_index];
   // Were the reference worse than what it judges, the comparison would say nothing.
   EXPECT_GT(ratios.mean, 0.995);
-  const RatioSummary sgd = ratios_to(reference, fitted_by_sgd(table, entries), entries);
+  const Statistics sgd = ratios_to(reference, fitted_by_sgd(table, entries), entries);
   EXPECT_LE(sgd.mean, 1.03);  // measured: 1.003, and 1.025 at worst
   // And the comparison sees lobes that are too wide along x.
   Table wider = table;

@@ -13,31 +13,7 @@ namespace {
 
 const double nan = std::nan("");
 
-TEST(Statistics, OfTheFiniteAndIncluded) {
-  std::vector<double> values;
-  for (int i = 100; i >= 1; --i)
-    values.push_back(i);
-  values.push_back(nan);
-  values.push_back(std::numeric_limits<double>::infinity());
-  const Statistics all = statistics_of(values);
-  EXPECT_EQ(all.count, 100u);
-  EXPECT_DOUBLE_EQ(all.mean, 50.5);
-  EXPECT_EQ(all.p50, 50);
-  EXPECT_EQ(all.p95, 95);
-  EXPECT_EQ(all.p99, 99);
-  EXPECT_EQ(all.largest, 100);
-  EXPECT_EQ(all.largest_index, 0u);
-  std::vector<bool> include(values.size());
-  include[90] = include[95] = true;
-  const Statistics two = statistics_of(values, include);
-  EXPECT_EQ(two.count, 2u);
-  EXPECT_EQ(two.mean, 7.5);
-  EXPECT_EQ(two.p50, 5);
-  EXPECT_EQ(two.largest_index, 90u);
-  EXPECT_EQ(statistics_of({}).count, 0u);
-}
-
-TEST(Statistics, LargestFirstAndEqualOnesInOrder) {
+TEST(LargestOf, LargestFirstAndEqualOnesInOrder) {
   const std::vector<double> values = {1, nan, 3, 2, 3};
   EXPECT_EQ(largest_of(values, 3), (std::vector<std::size_t>{2, 4, 3}));
   EXPECT_EQ(largest_of(values, 9), (std::vector<std::size_t>{2, 4, 3, 0}));

@@ -12,30 +12,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(QualityDistribution, OfKnownValues) {
-  std::vector<double> values;
-  for (int i = 100; i >= 1; --i)
-    values.push_back(i);
-  values.insert(values.begin(), nan);
-  const Distribution d = distribution(values);
-  EXPECT_EQ(d.count, 100u);
-  EXPECT_DOUBLE_EQ(d.mean, 50.5);
-  // The variance of 1..100 is 100 * 101 / 12.
-  EXPECT_NEAR(d.standard_error, std::sqrt(100.0 * 101 / 12 / 100), 1e-12);
-  EXPECT_EQ(d.p50, 50);
-  EXPECT_EQ(d.p95, 95);
-  EXPECT_EQ(d.p99, 99);
-  EXPECT_EQ(d.largest, 100);
-  EXPECT_EQ(d.largest_index, 1u);
-}
-
-TEST(QualityDistribution, OfNothing) {
-  const Distribution d = distribution({nan, nan});
-  EXPECT_EQ(d.count, 0u);
-  EXPECT_TRUE(std::isnan(d.mean));
-  EXPECT_TRUE(std::isnan(d.p95));
-}
-
 // Four queries of perceptual roughness 0.15, 0.15, 0.5 and 0.5; the last is left out.
 QualityReport four_queries() {
   QualityReport report;

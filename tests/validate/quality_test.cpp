@@ -52,7 +52,7 @@ QualityReport quick_report(const Table& table) {
   return measure_quality(table, quick_settings(), quick_floors(), 2, nullptr);
 }
 
-void expect_same(const Distribution& a, const Distribution& b) {
+void expect_same(const Statistics& a, const Statistics& b) {
   EXPECT_EQ(a.count, b.count);
   EXPECT_EQ(a.mean, b.mean);
   EXPECT_EQ(a.p99, b.p99);
