@@ -12,7 +12,8 @@
 
 namespace ltc::test {
 
-inline const std::vector<std::string> quick = {"--samples", "256", "--directions", "4"};
+inline const std::vector<std::string> quick = {"--samples", "256",       "--directions",
+                                               "4",         "--queries", "16"};
 
 inline CompareSettings quick_settings() {
   CompareSettings settings;

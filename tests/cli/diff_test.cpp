@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
 // ltcfit diff, through the real program: what it finds and writes.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -91,10 +92,13 @@ TEST(Diff, TheCsvHasEveryEntryInTheOrderOfTheGrid) {
       diff(folder / "bad.h5", folder / "good.h5", {"--csv", (folder / "all.csv").string()}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::vector<std::string> lines = lines_of(read_file(folder / "all.csv"));
-  ASSERT_EQ(lines.size(), 1 + good.grid.size());
+  ASSERT_EQ(lines.size(), 1 + good.grid.size() + 16);  // and the look-ups between the nodes
   EXPECT_EQ(lines[0],
             "alpha,lambda,theta,phi,loss_a,loss_b,spread,distance,"
-            "matrix_difference,amplitude_difference,fresnel_difference");
+            "matrix_difference,amplitude_difference,fresnel_difference,alpha_x,alpha_y,"
+            "theta_degrees,phi_degrees,area_light_error_a,area_light_error_b,"
+            "area_light_error_with_amplitude_a,area_light_error_with_amplitude_b");
+  EXPECT_TRUE(lines.back().starts_with("nan,nan,nan,nan,0.")) << lines.back();
   const std::vector<EntryComparison> expected =
       compare_tables(bad, good, quick_settings(), 1, nullptr);
   for (std::size_t flat = 0; flat < good.grid.size(); ++flat) {
@@ -103,6 +107,7 @@ TEST(Diff, TheCsvHasEveryEntryInTheOrderOfTheGrid) {
     for (std::string field; std::getline(line, field, ',');)
       values.push_back(std::strtod(field.c_str(), nullptr));
     const NodeIndex node = good.grid.node(flat);
+    values.resize(11);  // the lobe's own parameters follow
     // Numbers are written with all their digits.
     EXPECT_EQ(values, (std::vector<double>{
                           static_cast<double>(node.alpha), static_cast<double>(node.lambda),
@@ -162,6 +167,87 @@ TEST(Diff, TheJsonHasTheReport) {
     EXPECT_EQ(json["worst"][list][0]["command_a"], "ltcfit fit --as-in bad.h5 --entry 0,1,0,2");
     EXPECT_EQ(json["worst"][list][0]["relative_distance"], expected[bad].relative_distance());
   }
+}
+
+// ---- Between the nodes ----
+
+std::string verdict_line(const std::string& report) {
+  for (const std::string& line : lines_of(report))
+    if (line.starts_with("nearer to GGX: "))
+      return line;
+  return "";
+}
+
+TEST(Diff, SaysInOneLineWhichTableIsNearerInUse) {
+  const TemporaryDirectory folder;
+  Table wide = example();
+  for (std::size_t flat = 0; flat < wide.grid.size(); ++flat) {
+    Eigen::Matrix3d matrix = wide.stored_at(flat);
+    matrix.leftCols(2) *= 3;
+    wide.set_stored(flat, matrix);
+  }
+  write_hdf5(example(), folder / "good.h5");
+  write_hdf5(wide, folder / "wide.h5");
+  const auto run = [&](const char* a, const char* b) {
+    const ProgramResult result = run_ltcfit(diff(a, b, {"--json", "all.json"}), folder.path());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return std::pair(verdict_line(result.out), Json::parse(read_file(folder / "all.json")));
+  };
+  const auto [line, json] = run("good.h5", "wide.h5");
+  for (const char* part : {"in use A (", "under area lights A (", "at nodes A ("})
+    EXPECT_NE(line.find(part), std::string::npos) << line;
+  EXPECT_EQ(json["nearer"], Json({{"in_use", "A"}, {"under_area_lights", "A"}, {"at_nodes", "A"}}));
+  EXPECT_EQ(json["use"]["queries"], 16);
+  EXPECT_EQ(json["queries"].size(), 16u);
+  EXPECT_LT(json["use"]["loss"]["a"]["mean"], json["use"]["loss"]["b"]["mean"]);
+  const auto [reversed_line, reversed] = run("wide.h5", "good.h5");
+  EXPECT_EQ(reversed["nearer"]["in_use"], "B") << reversed_line;
+  EXPECT_EQ(reversed["nearer"]["under_area_lights"], "B");
+  const auto [same_line, same] = run("good.h5", "good.h5");
+  EXPECT_EQ(same["nearer"]["in_use"], "alike") << same_line;
+  EXPECT_EQ(same["nearer"]["at_nodes"], "alike");
+}
+
+TEST(Diff, TablesOfDifferentGridsAreComparedInUse) {
+  const TemporaryDirectory folder;
+  write_hdf5(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "coarse.h5");
+  write_npy(testing::synthetic_table(Grid::paper({4, 3, 5, 4}), Storage::matrix),
+            folder / "fine.npy");
+  const ProgramResult result = run_ltcfit(
+      diff("coarse.h5", "fine.npy", {"--json", "all.json", "--csv", "all.csv"}), folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("nodes are not compared: the tables have different grids (2x2x2x2 and "
+                            "4x3x5x4); only use is judged
+"),
+            std::string::npos)
+      << result.out;
+  EXPECT_NE(verdict_line(result.out).find("in use B ("), std::string::npos) << result.out;
+  EXPECT_EQ(verdict_line(result.out).find("at nodes"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("Ratio of the losses"), std::string::npos) << result.out;
+  const Json json = Json::parse(read_file(folder / "all.json"));
+  EXPECT_EQ(json["same_grid"], false);
+  EXPECT_FALSE(json.contains("entries"));
+  EXPECT_TRUE(json["nearer"]["at_nodes"].is_null());
+  EXPECT_EQ(json["use"]["compared"], 16);
+  EXPECT_EQ(lines_of(read_file(folder / "all.csv")).size(), 17u);
+}
+
+TEST(Diff, SaysThatNodesOfARefinedTableAreNoFits) {
+  const TemporaryDirectory folder;
+  const auto write = [&](const char* name, int steps) {
+    Table table = example();
+    table.config = fmt::format("[refine]\nsteps = {}\n", steps);
+    write_hdf5(table, folder / name);
+  };
+  write("refined.h5", 2);
+  write("fitted.h5", 0);
+  const auto text = [&](const char* a, const char* b) {
+    return run_ltcfit(diff(a, b), folder.path()).out;
+  };
+  EXPECT_NE(text("refined.h5", "fitted.h5").find("\nA is refined: "), std::string::npos);
+  EXPECT_NE(text("fitted.h5", "refined.h5").find("\nB is refined: "), std::string::npos);
+  EXPECT_NE(text("refined.h5", "refined.h5").find("\nA and B are refined: "), std::string::npos);
+  EXPECT_EQ(text("fitted.h5", "fitted.h5").find("refined: "), std::string::npos);
 }
 
 TEST(Diff, NamesThatAreNoUtf8HaveAReportToo) {
