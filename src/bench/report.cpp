@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/version.h"
@@ -23,8 +25,8 @@ Json file_or_null(const std::string& file) {
 }
 
 Json json_of(const Grid& grid, const BenchSetting& setting, const SettingSummary& summary) {
-  const RatioSummary& ratios = summary.ratios;
-  const bool any = ratios.entries > 0;
+  const Statistics& ratios = summary.ratios;
+  const bool any = ratios.count > 0;
   const auto value = [&](double ratio) { return any ? Json(ratio) : Json(); };
   return {{"name", setting.name},
           {"summary", setting.summary},
@@ -37,11 +39,11 @@ Json json_of(const Grid& grid, const BenchSetting& setting, const SettingSummary
           {"failures", summary.failures},
           {"ratio_mean", value(ratios.mean)},
           {"ratio_mean_above_alpha_min",
-           summary.rough_ratios.entries > 0 ? Json(summary.rough_ratios.mean) : Json()},
+           summary.rough_ratios.count > 0 ? Json(summary.rough_ratios.mean) : Json()},
           {"ratio_median", value(ratios.p50)},
           {"ratio_p99", value(ratios.p99)},
           {"ratio_worst", value(ratios.largest)},
-          {"worst_entry", any ? Json(node_text(grid, ratios.largest_entry)) : Json()}};
+          {"worst_entry", any ? Json(node_text(grid, ratios.largest_index)) : Json()}};
 }
 
 // The kinds of settings that a picture tells apart.
@@ -57,6 +59,21 @@ Family family_of(const BenchSetting& setting) {
       break;
   }
   return setting.name.starts_with("default-") ? Family::variants : Family::gauss_newton;
+}
+
+// What the picture shows of a setting: mirrors left out where there are others. NaN where nothing
+// was judged.
+double error_of(const SettingSummary& summary) {
+  return (summary.rough_ratios.count > 0 ? summary.rough_ratios : summary.ratios).mean - 1;
+}
+
+// Where a logarithmic axis shows what is as good as the best known, or better: below all others.
+double place_of_none(const std::vector<SettingSummary>& summaries) {
+  double least = 1;
+  for (const SettingSummary& summary : summaries)
+    if (error_of(summary) > 0)
+      least = std::min(least, error_of(summary));
+  return least / 3;
 }
 
 std::vector<std::string> notes(const FrontierReport& report) {
@@ -76,6 +93,12 @@ std::vector<std::string> notes(const FrontierReport& report) {
                                   task.settings[i].label, task.settings[i].timed_steps,
                                   task.settings[i].fit.sgd.steps,
                                   error_source_text(report.summaries[i].error_source)));
+  std::string unknown;
+  for (std::size_t i = 0; i < task.settings.size(); ++i)
+    if (std::isnan(error_of(report.summaries[i])))
+      unknown += (unknown.empty() ? "" : "; ") + task.settings[i].label;
+  if (!unknown.empty())
+    lines.push_back("Not shown, as nothing is known of its error: " + unknown);
   return lines;
 }
 
@@ -132,16 +155,19 @@ picture::Chart frontier_chart(const FrontierReport& report) {
   using namespace picture;
   const FrontierTask& task = report.task;
   Series families[] = {{"Gauss–Newton", {}, series_color(0), Marker::disc},
-                       {"variants of the default", {}, series_color(4), Marker::triangle},
+                       {"variants of the default", {}, series_color(4), Marker::open_triangle},
                        {"stochastic descent", {}, series_color(1), Marker::square},
                        {"L3 error, simplex", {}, series_color(2), Marker::diamond}};
+  const double none = place_of_none(report.summaries);
+  bool any_without = false;
   std::vector<ChartPoint> all;
   for (std::size_t i = 0; i < task.settings.size(); ++i) {
     const SettingSummary& summary = report.summaries[i];
-    const double error = summary.rough_ratios.mean - 1;
-    if (summary.rough_ratios.entries == 0 || !(error > 0))
+    const double error = error_of(summary);
+    if (std::isnan(error))
       continue;
-    all.push_back({summary.table_seconds, error, task.settings[i].label});
+    any_without |= error <= 0;
+    all.push_back({summary.table_seconds, error > 0 ? error : none, task.settings[i].label});
     families[static_cast<std::size_t>(family_of(task.settings[i]))].points.push_back(all.back());
   }
   const auto shape = task.grid.shape();
@@ -156,6 +182,8 @@ picture::Chart frontier_chart(const FrontierReport& report) {
   for (const Series& family : families)
     if (!family.points.empty())
       chart.series.push_back(family);
+  if (any_without)
+    chart.guides = {{Guide::Axis::y, none, "no error over the best known"}};
   return chart;
 }
 

@@ -71,12 +71,12 @@ void require_writable(const std::vector<std::string>& files) {
 }
 
 // A ratio, or a dash where nothing was judged.
-std::string ratio_text(double ratio, const RatioSummary& of) {
-  return of.entries > 0 ? fmt::format("{:.4f}", ratio) : "-";
+std::string ratio_text(double ratio, const Statistics& of) {
+  return of.count > 0 ? fmt::format("{:.4f}", ratio) : "-";
 }
 
 std::string error_text(const SettingSummary& summary) {
-  const RatioSummary &ratios = summary.ratios, &rough = summary.rough_ratios;
+  const Statistics &ratios = summary.ratios, &rough = summary.rough_ratios;
   return fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>9}", ratio_text(ratios.mean, ratios),
                      ratio_text(rough.mean, rough), ratio_text(ratios.p50, ratios),
                      ratio_text(ratios.p99, ratios), ratio_text(ratios.largest, ratios),
@@ -207,7 +207,7 @@ void add_error_options(CLI::App& app, Arguments& arguments) {
           ->option_text("FILE")
           ->group(group);
   app.add_option("--full-sgd", arguments.whole_fits,
-                 "make sgd-published's whole fit at so many entries, a minute each [0]")
+                 "make sgd-published's whole fit at so many entries, half a minute each [0]")
       ->check(CLI::Range(0, 1 << 24))
       ->excludes(published)
       ->option_text("N")

@@ -196,6 +196,13 @@ void place_point_labels(const Chart& chart, const Canvas& canvas, ChartLayout& l
   layout.labels_without_room = labels.size() - layout.labels.size();
 }
 
+// About a point, its tip up.
+std::array<Point, 3> triangle(Point at, double radius) {
+  return {{{at.x, at.y - radius},
+           {at.x + 0.9 * radius, at.y + 0.7 * radius},
+           {at.x - 0.9 * radius, at.y + 0.7 * radius}}};
+}
+
 void draw_marker(Canvas& canvas, Marker marker, Point at, double radius, Color color) {
   // A white rim keeps markers apart where they touch.
   const Stroke rim{white, 0.2 * radius};
@@ -215,10 +222,12 @@ void draw_marker(Canvas& canvas, Marker marker, Point at, double radius, Color c
       const double r = 1.25 * radius;
       return shape(std::array<Point, 4>{{{x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}}});
     }
-    case Marker::triangle: {
-      const double r = 1.2 * radius;
-      return shape(std::array<Point, 3>{
-          {{x, y - r}, {x + 0.9 * r, y + 0.7 * r}, {x - 0.9 * r, y + 0.7 * r}}});
+    case Marker::triangle:
+      return shape(triangle(at, 1.2 * radius));
+    case Marker::open_triangle: {
+      const auto [a, b, c] = triangle(at, 1.8 * radius);
+      // Once around and along the first side again, for its corner to be joined as well.
+      return canvas.polyline(std::array<Point, 5>{a, b, c, a, b}, {color, 0.4 * radius});
     }
   }
 }

@@ -19,7 +19,8 @@ struct ChartPoint {
   std::string label{};  // written beside the point
 };
 
-enum class Marker { none, disc, square, diamond, triangle };
+// The open one lets a marker below it be seen.
+enum class Marker { none, disc, square, diamond, triangle, open_triangle };
 
 struct Series {
   std::string name;  // in the legend; none if empty

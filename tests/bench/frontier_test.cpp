@@ -109,7 +109,7 @@ TEST(Frontier, SummarizesTimesAndRatios) {
 TEST(Frontier, TheWorstEntryIsOneOfTheTable) {
   const FrontierTask task = small_task("default", 3);
   const std::vector<SettingSummary> summaries = summarize(task, made_up({{1, 5, 2}}, {1, 1, 1}));
-  EXPECT_EQ(summaries[0].ratios.largest_entry, task.entries[1]);
+  EXPECT_EQ(summaries[0].ratios.largest_index, task.entries[1]);
 }
 
 TEST(Frontier, TellsMirrorsFromTheRest) {
@@ -124,7 +124,7 @@ TEST(Frontier, TellsMirrorsFromTheRest) {
   ASSERT_GT(mirrors, 0u);
   const SettingSummary summary = summarize(task, made_up({losses}, ones))[0];
   EXPECT_DOUBLE_EQ(summary.rough_ratios.mean, 1.5);
-  EXPECT_EQ(summary.rough_ratios.entries + mirrors, summary.ratios.entries);
+  EXPECT_EQ(summary.rough_ratios.count + mirrors, summary.ratios.count);
   EXPECT_GT(summary.ratios.mean, 1.5);
 }
 
@@ -174,7 +174,7 @@ TEST(Frontier, ExtrapolatesTheDescentAndLetsItsErrorBeStoodInFor) {
   const SettingSummary alone = summarize(task, timed)[0];
   EXPECT_EQ(alone.error_source, ErrorSource::none);
   EXPECT_EQ(alone.judged, 0u);
-  EXPECT_EQ(alone.ratios.entries, 0u);
+  EXPECT_EQ(alone.ratios.count, 0u);
   EXPECT_TRUE(alone.extrapolated);
   EXPECT_EQ(timed.measurements[0][0].steps, 10000);
 
@@ -260,6 +260,55 @@ TEST(FrontierReport, TheChartHasAPointForEveryKnownError) {
       }
   EXPECT_EQ(labels, (std::vector<std::string>{"256 × 16", "default", "L3, first-order start"}));
   EXPECT_GT(picture::render(chart, 800, 600).png_bytes().size(), 1000u);
+  EXPECT_EQ(chart.words.lines_below.back(),
+            "Not shown, as nothing is known of its error: SGD, published");
+  EXPECT_TRUE(chart.guides.empty());
+}
+
+// Where the best setting at each entry is what errors are over, that setting has none; against a
+// table it may have less.
+TEST(FrontierReport, TheChartShowsWhatIsAsGoodAsTheBestKnown) {
+  FrontierReport report;
+  report.task = small_task("gn-256x16,default,gn-4096x64", 2);
+  report.run = made_up({{1.2, 1.2}, {1, 1}, {0.99, 0.99}}, {1, 1});
+  report.summaries = summarize(report.task, report.run);
+  const picture::Chart chart = frontier_chart(report);
+  ASSERT_EQ(chart.guides.size(), 1u);
+  const double none = chart.guides[0].value;
+  EXPECT_GT(none, 0);
+  const picture::Series& series = chart.series.at(1);
+  ASSERT_EQ(series.points.size(), 3u);
+  EXPECT_NEAR(series.points[0].y, 0.2, 1e-12);
+  EXPECT_LT(none, 0.2);
+  EXPECT_EQ(series.points[1].y, none);
+  EXPECT_EQ(series.points[2].y, none);
+  EXPECT_EQ(series.points[2].label, "4096 × 64");
+  const picture::Canvas canvas(800, 600);
+  const picture::ChartLayout layout =
+      picture::lay_out(chart, canvas, canvas.area().inset(chart.font_size));
+  EXPECT_EQ(layout.labels.size(), 3u);
+}
+
+// Where one lies on the other, both are seen.
+TEST(FrontierReport, VariantsDoNotHideTheDefault) {
+  FrontierReport report;
+  report.task = small_task("gn-256x16,default,default-2-starts", 2);
+  report.run = made_up({{1.3, 1.3}, {1.1, 1.1}, {1.1, 1.1}}, {1, 1});
+  report.summaries = summarize(report.task, report.run);
+  report.summaries[2].table_seconds = report.summaries[1].table_seconds;
+  const picture::Chart chart = frontier_chart(report);
+  const picture::Canvas canvas = picture::render(chart, 800, 600);
+  const picture::ChartLayout layout =
+      picture::lay_out(chart, canvas, canvas.area().inset(chart.font_size));
+  const picture::ChartPoint& both = chart.series.at(2).points.at(0);
+  EXPECT_EQ(both.y, chart.series.at(1).points.at(1).y);
+  const picture::Point at = layout.at(both.x, both.y);
+  EXPECT_EQ(canvas.pixel(static_cast<int>(at.x), static_cast<int>(at.y)), chart.series[1].color);
+  bool triangle = false;
+  for (int row = -20; row <= 20; ++row)
+    triangle |=
+        canvas.pixel(static_cast<int>(at.x), static_cast<int>(at.y) + row) == chart.series[2].color;
+  EXPECT_TRUE(triangle);
 }
 
 }  // namespace
