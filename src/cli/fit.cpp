@@ -13,6 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
+#include "cli/roughness_options.h"
 #include "cli/scene_file.h"
 #include "cli/stored_report.h"
 #include "core/angle.h"
@@ -41,7 +42,8 @@ struct Arguments {
   std::string as_in;  // a table to show the lobe of; empty: none, the lobe is fitted
   std::string scene;  // empty: the whole table
   std::string entry;  // empty: the lobe is named by its parameters
-  std::optional<double> alpha_x, alpha_y, theta_degrees, phi_degrees;
+  RoughnessArguments roughness;
+  std::optional<double> theta_degrees, phi_degrees;
   std::string solver, seed, samples;  // empty: the config's
   std::string start;                  // empty: the solver's own
   std::string trace, plot;            // empty: none
@@ -93,29 +95,26 @@ double require_in(const char* option, double value, bool allowed, const char* ex
 }
 
 bool names_parameters(const Arguments& arguments) {
-  return arguments.alpha_x || arguments.alpha_y || arguments.theta_degrees || arguments.phi_degrees;
+  return arguments.roughness.any() || arguments.theta_degrees || arguments.phi_degrees;
 }
 
 // What the stress runs go down to.
 constexpr double least_alpha = 1e-12;
 
 GgxLobe parse_lobe(const Arguments& arguments) {
-  const std::array<std::pair<const char*, std::optional<double>>, 4> parameters = {
-      {{"--alpha-x", arguments.alpha_x},
-       {"--alpha-y", arguments.alpha_y},
-       {"--theta", arguments.theta_degrees},
-       {"--phi", arguments.phi_degrees}}};
-  for (const auto& [option, value] : parameters)
-    if (!value)
+  const std::array<std::pair<const char*, bool>, 3> parameters = {
+      {{"--alpha-x and --alpha-y, or --roughness,", arguments.roughness.any()},
+       {"--theta", arguments.theta_degrees.has_value()},
+       {"--phi", arguments.phi_degrees.has_value()}}};
+  for (const auto& [option, given] : parameters)
+    if (!given)
       throw InputError(
-          fmt::format("{} is missing; a lobe is named by --alpha-x, --alpha-y, "
-                      "--theta and --phi together, or by --entry",
+          fmt::format("{} is missing; a lobe is named by its roughness, --theta and --phi "
+                      "together, or by --entry",
                       option));
-  const auto roughness = [](const char* option, double alpha) {
-    return require_in(option, alpha, alpha >= least_alpha && alpha <= 1, "a number in [1e-12, 1]");
-  };
+  const LobeRoughness roughness = roughness_of(arguments.roughness, least_alpha);
   const double theta = *arguments.theta_degrees, phi = *arguments.phi_degrees;
-  return {roughness("--alpha-x", *arguments.alpha_x), roughness("--alpha-y", *arguments.alpha_y),
+  return {roughness.alpha_x, roughness.alpha_y,
           radians_of_degrees(
               require_in("--theta", theta, theta >= 0 && theta < 90, "degrees in [0, 90)")),
           radians_of_degrees(
@@ -224,9 +223,11 @@ void require_one_name(const Arguments& arguments) {
   const bool by_entry = !arguments.entry.empty(), by_parameters = names_parameters(arguments);
   if (by_entry && by_parameters)
     throw InputError(
-        "a lobe is named by --entry or by --alpha-x, --alpha-y, --theta and --phi, not by both");
+        "a lobe is named by --entry or by its roughness, --theta and --phi, not by both");
   if (!by_entry && !by_parameters)
-    throw InputError("no lobe named; expected --entry, or --alpha-x, --alpha-y, --theta and --phi");
+    throw InputError(
+        "no lobe named; expected --entry, or --alpha-x and --alpha-y or --roughness, --theta and "
+        "--phi");
   if (!arguments.scene.empty() && (!by_entry || !arguments.start.empty()))
     throw InputError("--scene tells which table an --entry is of; it goes with no other start");
 }
@@ -303,12 +304,9 @@ void add_lobe_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--scene", arguments.scene, "the scene that the table was made for [none]")
       ->option_text("FILE")
       ->group(group);
-  app.add_option("--alpha-x", arguments.alpha_x, "roughness along x, in [1e-12, 1]")
-      ->option_text("X")
-      ->group(group);
-  app.add_option("--alpha-y", arguments.alpha_y, "roughness along y, in [1e-12, 1]")
-      ->option_text("Y")
-      ->group(group);
+  add_roughness_options(
+      app, arguments.roughness,
+      {"roughness along x, in [1e-12, 1]", "roughness along y, in [1e-12, 1]", group});
   app.add_option("--theta", arguments.theta_degrees,
                  "angle between view and normal, degrees in [0, 90)")
       ->option_text("DEGREES")

@@ -17,13 +17,14 @@
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/render_report.h"
+#include "cli/roughness_options.h"
 #include "core/error.h"
 #include "core/version.h"
+#include "core/write_file.h"
 #include "export/reader.h"
 #include "render/image_exr.h"
 #include "render/missing_albedo.h"
-#include "render/sphere_images.h"
-#include "render/sphere_picture.h"
 
 namespace ltc::cli {
 namespace {
@@ -33,12 +34,13 @@ using Clock = std::chrono::steady_clock;
 
 struct Arguments {
   std::string table, table_b;  // table_b empty: none
-  std::optional<double> alpha_x, alpha_y;
-  std::vector<std::string> materials;  // "alpha_x,alpha_y" each
+  RoughnessArguments roughness;
+  std::vector<std::string> materials;  // as parse_roughness takes them
   double f0 = 1;
   double light_size = 1;  // times that of figure 14
   SphereSettings settings;
   std::string output = "out";
+  std::string json;  // empty: none
   int threads = default_threads();
 };
 
@@ -55,39 +57,19 @@ struct Tables {
   }
 };
 
-// Every material's images, and how long each took.
-struct Results {
-  std::vector<SphereRow> rows;
-  std::vector<double> seconds;
-};
-
 constexpr double least_alpha = 1e-4;
-
-// "0.3,0.05"; throws InputError for anything else.
-SphereMaterial material_of(const std::string& text, double f0) {
-  double alpha_x = 0, alpha_y = 0;
-  int length = 0;
-  const int read = std::sscanf(text.c_str(), "%lf,%lf%n", &alpha_x, &alpha_y, &length);
-  const auto allowed = [](double alpha) { return alpha >= least_alpha && alpha <= 1; };
-  if (read != 2 || static_cast<std::size_t>(length) != text.size() || !allowed(alpha_x) ||
-      !allowed(alpha_y))
-    throw InputError(
-        fmt::format("--material {}: expected two roughnesses in [{}, 1], for example 0.3,0.05",
-                    text, least_alpha));
-  return {alpha_x, alpha_y, f0};
-}
 
 // Those of figure 14 of Aakash et al. 2022, unless others are asked for.
 std::vector<SphereMaterial> materials_of(const Arguments& arguments) {
-  if (arguments.alpha_x.has_value() != arguments.alpha_y.has_value())
-    throw InputError(fmt::format("--alpha-{} without --alpha-{}; expected both or neither",
-                                 arguments.alpha_x ? "x" : "y", arguments.alpha_x ? "y" : "x"));
   const double f0 = arguments.f0;
   std::vector<SphereMaterial> materials;
-  if (arguments.alpha_x)
-    materials.push_back({*arguments.alpha_x, *arguments.alpha_y, f0});
+  const auto add = [&](const LobeRoughness& roughness) {
+    materials.push_back({roughness.alpha_x, roughness.alpha_y, f0});
+  };
+  if (arguments.roughness.any())
+    add(roughness_of(arguments.roughness, least_alpha));
   for (const std::string& text : arguments.materials)
-    materials.push_back(material_of(text, f0));
+    add(parse_roughness("--material", text, least_alpha));
   if (!materials.empty())
     return materials;
   return {{0.05, 0.25, f0}, {0.5, 0.02, f0}, {0.5, 0.25, f0}, {0.5, 1.0, f0}};
@@ -138,33 +120,57 @@ std::string refusal_of_output(const std::string& text) {
   return {};
 }
 
-Results render_all(const Arguments& arguments, const std::vector<SphereMaterial>& materials,
-                   const Tables& tables, Progress& progress) {
+// Which table clamps what of a material.
+std::vector<std::vector<ClampedAxis>> clamping_of(const SphereMaterial& material,
+                                                  const Tables& tables) {
+  std::vector<std::vector<ClampedAxis>> clamped;
+  for (const Table& table : tables.tables)
+    clamped.push_back(clamped_axes(table.grid, material));
+  return clamped;
+}
+
+RenderReport report_of(const Arguments& arguments, const std::vector<SphereMaterial>& materials,
+                       const Tables& tables, const Destination& destination) {
+  RenderReport report;
+  report.files = tables.paths;
+  report.names = tables.names;
+  report.light_size = arguments.light_size;
+  report.samples = arguments.settings.samples;
+  report.size = arguments.settings.size;
+  report.picture = destination.picture();
+  for (const SphereMaterial& material : materials) {
+    report.rows.push_back({material, {}, clamping_of(material, tables)});
+    report.images.push_back(destination.images(material));
+  }
+  return report;
+}
+
+void render_all(const Arguments& arguments, const Tables& tables, RenderReport& report,
+                Progress& progress) {
   SphereSettings settings = arguments.settings;
   settings.scene.light.half_u *= arguments.light_size;
   settings.scene.light.half_v *= arguments.light_size;
-  Results results;
-  for (const SphereMaterial& material : materials) {
+  for (SphereRow& row : report.rows) {
     const Clock::time_point began = Clock::now();
-    const std::string stage = fmt::format("render {}, {}", material.alpha_x, material.alpha_y);
-    results.rows.push_back({material, render_sphere(tables.pointers(), material, settings, stage,
-                                                    arguments.threads, &progress)});
-    results.seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
+    const std::string stage =
+        fmt::format("render {:.4g}, {:.4g}", row.material.alpha_x, row.material.alpha_y);
+    row.images = render_sphere(tables.pointers(), row.material, settings, stage, arguments.threads,
+                               &progress);
+    report.seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
   }
-  return results;
 }
 
 // A table made for a scene may lack entries; one that lacks all that are asked for is of no use.
-void require_some_entries(const Results& results, const Tables& tables) {
-  for (std::size_t table = 0; table < tables.paths.size(); ++table) {
+void require_some_entries(const RenderReport& report) {
+  for (std::size_t table = 0; table < report.files.size(); ++table) {
     const auto any = [&](const SphereRow& row) {
       return sphere_error(row.images, table).pixels > 0;
     };
-    if (std::none_of(results.rows.begin(), results.rows.end(), any))
+    if (std::none_of(report.rows.begin(), report.rows.end(), any))
       throw InputError(fmt::format(
           "{}: has none of the entries that these materials need; expected a table with entries "
           "at, for example, alpha_x {} and alpha_y {}",
-          tables.paths[table], results.rows[0].material.alpha_x, results.rows[0].material.alpha_y));
+          report.files[table], report.rows[0].material.alpha_x, report.rows[0].material.alpha_y));
   }
 }
 
@@ -194,51 +200,17 @@ void write_images(const SphereRow& row, const Arguments& arguments, const fs::pa
   write_image_exr(layers, attributes, path);
 }
 
-std::string row_text(const SphereRow& row, std::size_t table, const std::string& name,
-                     double seconds) {
-  const SphereError error = sphere_error(row.images, table);
-  std::string text =
-      fmt::format("{:>8} {:>8}  {:<7} ", row.material.alpha_x, row.material.alpha_y, name);
-  if (error.pixels == 0)
-    return text + "no entries for this material\n";
-  text += fmt::format("{:>12.5f} {:>12.2f} % {:>12.5f} {:>8.2f}\n", error.mean_absolute,
-                      100 * error.relative_rmse, error.standard_error, seconds);
-  if (error.without > 0)
-    text += fmt::format("{:19}{} of {} pixels without an entry\n", "", error.without,
-                        error.without + error.pixels);
-  return text;
-}
-
-// "Table: out/ltc.h5", or "A: out/ltc.h5, B: other.npy".
-std::string tables_text(const Tables& tables) {
-  if (tables.paths.size() == 1)
-    return "Table: " + tables.paths[0];
-  return fmt::format("A: {}, B: {}", tables.paths[0], tables.paths[1]);
-}
-
-std::string report_text(const Results& results, const Tables& tables) {
-  std::string text = fmt::format(
-      "{}\nmean |error| and noise (standard error of a pixel) in units of the light's radiance\n\n",
-      tables_text(tables));
-  text += fmt::format("{:>8} {:>8}  {:<7} {:>12} {:>14} {:>12} {:>8}\n", "alpha_x", "alpha_y",
-                      "table", "mean |error|", "RMSE/mean GGX", "noise of GGX", "seconds");
-  for (std::size_t row = 0; row < results.rows.size(); ++row)
-    for (std::size_t table = 0; table < tables.names.size(); ++table)
-      text += row_text(results.rows[row], table, tables.names[table], results.seconds[row]);
-  return text;
-}
-
-SpherePicture picture_of(const Arguments& arguments, const Tables& tables, Results results) {
+SpherePicture picture_of(const RenderReport& report) {
   SpherePicture content;
   content.title = "Spheres under a rectangular light";
   content.caption = {
       fmt::format(
           "x along the parallels about the upright axis, y along the meridians. GGX: multiple "
           "importance sampling, {} samples a pixel.",
-          arguments.settings.samples),
-      "Differences and errors are in units of the light's radiance. " + tables_text(tables)};
-  content.tables = tables.names;
-  content.rows = std::move(results.rows);
+          report.samples),
+      "Differences and errors are in units of the light's radiance. " + tables_text(report)};
+  content.tables = report.names;
+  content.rows = report.rows;
   return content;
 }
 
@@ -249,29 +221,22 @@ void render(const Arguments& arguments) {
   const Tables tables = load_tables(arguments);
   const Destination destination = destination_of(arguments.output);
   const OutputFolder folder(destination.folder);
+  const std::optional<OutputFolder> json_folder = folder_of_file(arguments.json);
 
-  Results results = render_all(arguments, materials, tables, progress);
-  require_some_entries(results, tables);
-  std::string text = report_text(results, tables) + "\nwrote ";
-  const SpherePicture content = picture_of(arguments, tables, std::move(results));
-  const picture::Canvas picture = draw(content);
+  RenderReport report = report_of(arguments, materials, tables, destination);
+  // Before the work: whoever meant another table stops it.
+  fmt::print(stderr, "{}", clamping_warnings(report));
+  render_all(arguments, tables, report, progress);
+  require_some_entries(report);
+  const picture::Canvas picture = draw(picture_of(report));
   // The last chance to stop.
   progress.throw_if_stopped();
-  for (const SphereRow& row : content.rows) {
-    const fs::path path = destination.images(row.material);
-    write_images(row, arguments, path);
-    text += path.string() + "\n      ";
-  }
-  picture.write_png(destination.picture());
-  print(text + destination.picture().string() + "\n");
-}
-
-void add_number_option(CLI::App& app, const char* name, std::optional<double>& value,
-                       const char* what) {
-  app.add_option(name, value, what)
-      ->check(CLI::Range(least_alpha, 1.0))
-      ->option_text("X")
-      ->group("What to render");
+  for (std::size_t row = 0; row < report.rows.size(); ++row)
+    write_images(report.rows[row], arguments, report.images[row]);
+  picture.write_png(report.picture);
+  if (!arguments.json.empty())
+    write_file(arguments.json, report_json(report));
+  print(report_text(report));
 }
 
 }  // namespace
@@ -281,15 +246,16 @@ Action declare_render(CLI::App& app) {
   app.add_option("TABLE", arguments->table, "table to render with, .h5, .npy or .0.exr")
       ->required()
       ->option_text(" ");
-  add_number_option(app, "--alpha-x", arguments->alpha_x,
-                    "roughness along the parallels [the four materials of figure 14]");
-  add_number_option(app, "--alpha-y", arguments->alpha_y,
-                    "roughness along the meridians, together with --alpha-x");
+  constexpr const char* what = "What to render";
+  add_roughness_options(app, arguments->roughness,
+                        {"roughness along the parallels [the four materials of figure 14]",
+                         "roughness along the meridians, together with --alpha-x", what});
   app.add_option("--material", arguments->materials,
-                 "roughness along the parallels and along the meridians; can be repeated")
+                 "roughness along the parallels and along the meridians, or "
+                 "roughness=R,anisotropy=A; can be repeated")
       ->allow_extra_args(false)
       ->option_text("X,Y")
-      ->group("What to render");
+      ->group(what);
   app.add_option("--light-size", arguments->light_size,
                  "width and height of the light over those of figure 14 [1]")
       ->check([](const std::string& text) {
@@ -297,14 +263,14 @@ Action declare_render(CLI::App& app) {
         return std::string(size >= 0.001 && size <= 2 ? "" : text + " is not in [0.001, 2]");
       })
       ->option_text("S")
-      ->group("What to render");
+      ->group(what);
   app.add_option("--f0", arguments->f0, "reflectance at normal incidence, of Schlick's term [1]")
       ->check(CLI::Range(0.0, 1.0))
       ->option_text("X")
-      ->group("What to render");
+      ->group(what);
   app.add_option("--table-b", arguments->table_b, "another table to compare with [none]")
       ->option_text("FILE")
-      ->group("What to render");
+      ->group(what);
   app.add_option("--size", arguments->settings.size, "width and height of a sphere, pixels [320]")
       ->check(CLI::Range(8, 2048))
       ->option_text("N")
@@ -318,6 +284,9 @@ Action declare_render(CLI::App& app) {
                  "folder for spheres.png and an .exr a material, or the name of the .png [out]")
       ->check(refusal_of_output)
       ->option_text("PATH")
+      ->group("Where to write");
+  app.add_option("--json", arguments->json, "write the report to this file [none]")
+      ->option_text("FILE")
       ->group("Where to write");
   add_threads_option(app, arguments->threads);
   return [arguments] { render(*arguments); };

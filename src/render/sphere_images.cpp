@@ -154,6 +154,7 @@ SphereError sphere_error(const SphereImages& images, std::size_t table) {
   error.mean_absolute /= pixels;
   error.relative_rmse = std::sqrt(squares / pixels) / error.reference_mean;
   error.standard_error = std::sqrt(variance / pixels);
+  error.relative_noise = error.standard_error / error.reference_mean;
   return error;
 }
 

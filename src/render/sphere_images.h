@@ -47,6 +47,8 @@ struct SphereError {
   double mean_absolute = 0;   // in units of the light's radiance
   double relative_rmse = 0;   // root mean square error over reference_mean
   double standard_error = 0;  // of the reference's pixels, root mean square
+  // The same over reference_mean: what a table without any error would have as relative_rmse.
+  double relative_noise = 0;
 };
 SphereError sphere_error(const SphereImages& images, std::size_t table);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "picture/canvas.h"
+#include "render/clamping.h"
 #include "render/sphere_images.h"
 
 namespace ltc {
@@ -14,6 +15,7 @@ namespace ltc {
 struct SphereRow {
   SphereMaterial material;
   SphereImages images;
+  std::vector<std::vector<ClampedAxis>> clamped;  // one a table
 };
 
 struct SpherePicture {

@@ -234,10 +234,36 @@ TEST(Fit, TakesTheConfigOfATable) {
 
 // ---- Bad input ----
 
+// glTF's mapping: alpha = 0.3^2 across, mix(0.09, 1, 0.5^2) = 0.3175 along x.
+TEST(Fit, TakesRoughnessAsEditorsHaveIt) {
+  const auto lobe_of = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "fit");
+    arguments.insert(arguments.end(), {"--theta", "40", "--phi", "10", "--json"});
+    const ProgramResult result = run_ltcfit(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out)["lobe"];
+  };
+  const auto anisotropic = lobe_of({"--roughness", "0.3", "--anisotropy", "0.5"});
+  EXPECT_NEAR(anisotropic["alpha_x"], 0.3175, 1e-15);
+  EXPECT_NEAR(anisotropic["alpha_y"], 0.09, 1e-15);
+  const auto isotropic = lobe_of({"--roughness", "0.3"});
+  EXPECT_EQ(isotropic["alpha_x"], isotropic["alpha_y"]);
+}
+
 TEST(FitBadInput, WhichLobe) {
   expect_refused({}, 2, {"no lobe named", "--entry", "--alpha-x"});
   expect_refused({"--entry", "1,1,1,1", "--phi", "3"}, 2, {"not by both"});
-  expect_refused({"--alpha-x", "0.1", "--theta", "3"}, 2, {"--alpha-y is missing"});
+  expect_refused({"--alpha-x", "0.1", "--theta", "3"}, 2, {"--phi is missing"});
+  expect_refused({"--theta", "3", "--phi", "3"}, 2, {"--roughness, is missing"});
+  const auto roughness = [](std::vector<std::string> arguments, const std::string& part) {
+    arguments.insert(arguments.end(), {"--theta", "3", "--phi", "3"});
+    expect_refused(arguments, 2, {part});
+  };
+  roughness({"--alpha-x", "0.1"}, "--alpha-x without --alpha-y");
+  roughness({"--anisotropy", "0.1"}, "--anisotropy without --roughness");
+  roughness({"--alpha-y", "0.1", "--roughness", "0.3"}, "--alpha-y and --roughness: expected ");
+  roughness({"--roughness", "1.1"}, "--roughness 1.1: expected a number in [1e-06, 1]");
+  roughness({"--roughness", "0.3", "--anisotropy", "nan"}, "a number in [0, 1]");
   for (const char* entry : {"8,0,0,0", "0,0,0,8", "-1,0,0,0", "1,2,3", "1,2,3,4,5", "a", "1,,2,3",
                             "1.5,0,0,0", "99999999999999999999,0,0,0"})
     expect_refused({"--entry", entry}, 2, {entry, "7,7,7,7"});

@@ -3,6 +3,9 @@
 // ltcfit render as a user runs it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "export/hdf5.h"
 #include "export/npy.h"
 #include "support/program.h"
@@ -72,6 +75,59 @@ TEST_F(Render, TakesMaterialsAndTheSizeOfTheLight) {
   EXPECT_NE(image("large"), image("small"));
 }
 
+// roughness 0.3 and anisotropy 0.5 are alpha 0.3175 and 0.09; 0.5 and 0 are 0.25 and 0.25.
+TEST_F(Render, TakesRoughnessAsEditorsHaveIt) {
+  const ProgramResult result =
+      run({"t.h5", "--roughness", "0.5", "--material", "roughness=0.3,anisotropy=0.5", "--material",
+           "roughness=0.4", "-o", "o"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* row : {"    0.25     0.25", "  0.3175     0.09", "    0.16     0.16"})
+    EXPECT_NE(result.out.find(row), std::string::npos) << row << "\n" << result.out;
+}
+
+TEST_F(Render, StatesTheNoiseOfItsReference) {
+  const auto tables_of = [&](const char* samples, const std::string& mark) {
+    const ProgramResult result = run_ltcfit({"render", "t.h5", "--material", "0.5,0.5", "--size",
+                                             "24", "--samples", samples, "--json", "all.json"},
+                                            folder_.path());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find(" noise "), std::string::npos);
+    EXPECT_EQ(result.out.find("raise --samples") != std::string::npos, mark == "!") << result.out;
+    return nlohmann::json::parse(read_file(folder_ / "all.json"))["materials"][0]["tables"][0];
+  };
+  const auto coarse = tables_of("16", "!"), fine = tables_of("16384", "");
+  const double noise = fine["noise_over_mean"], rmse = fine["rmse_over_mean"];
+  EXPECT_LT(noise, 0.2 * rmse);
+  EXPECT_GT(coarse["noise_over_mean"].get<double>(), 10 * noise);
+  // Independent of the table's own error, the noise adds to its square: to a tenth, the accuracy of
+  // a noise estimated from two halves at some 400 pixels.
+  EXPECT_NEAR(coarse["rmse_over_mean"].get<double>(),
+              std::hypot(coarse["noise_over_mean"].get<double>(), rmse),
+              0.1 * coarse["rmse_over_mean"].get<double>());
+}
+
+TEST_F(Render, WarnsOfWhatIsClamped) {
+  Grid grid = Grid::paper(3);
+  grid.alpha = Axis::make(0.1, 0.6, 3, Warp::linear);
+  grid.theta = Axis::make(0, 1, 3, Warp::linear);
+  write_hdf5(testing::synthetic_table(grid, Storage::matrix), folder_ / "narrow.h5");
+  const ProgramResult result = run({"t.h5", "--table-b", "narrow.h5", "--material", "0.8,0.4",
+                                    "--material", "0.5,0.5", "--json", "all.json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::string first =
+      "0.8, 0.4 is beyond the axes of narrow.h5, clamped: alpha 0.8 to 0.6, theta 90 to 57.3\n";
+  for (const std::string& text : {result.out, result.err}) {
+    EXPECT_NE(text.find(first), std::string::npos) << text;
+    EXPECT_NE(text.find("0.5, 0.5 is beyond the axes of narrow.h5, clamped: theta 90 to 57.3\n"),
+              std::string::npos);
+    EXPECT_EQ(text.find("axes of t.h5"), std::string::npos);
+  }
+  const auto materials = nlohmann::json::parse(read_file(folder_ / "all.json"))["materials"];
+  EXPECT_TRUE(materials[0]["tables"][0]["clamped"].empty());
+  EXPECT_EQ(materials[0]["tables"][1]["clamped"][0],
+            nlohmann::json({{"axis", "alpha"}, {"asked", 0.8}, {"taken", 0.6}}));
+}
+
 TEST_F(Render, WritesTheSameBytesWithAnyNumberOfThreads) {
   for (const char* threads : {"1", "3"})
     EXPECT_EQ(run({"t.h5", "--alpha-x", "0.3", "--alpha-y", "0.1", "-t", threads, "-o",
@@ -98,7 +154,9 @@ TEST_F(Render, RefusesBadInputInOneLineAndWritesNothing) {
     expect_one_line(result.err.substr(begin, result.err.size() - begin - 1), parts);
     EXPECT_EQ(names_in(folder_.path()), before);
   };
-  for (const char* material : {"0.3", "0.3,", "0.3,0.05,1", "0.3,2", "0.3,nan", "x,0.1"})
+  for (const char* material :
+       {"0.3", "0.3,", "0.3,0.05,1", "0.3,2", "0.3,nan", "x,0.1", "roughness=2",
+        "roughness=0.3,0.5", "roughness=0.3,anisotropy=1.1", "anisotropy=0.5"})
     expect_refusal({"t.h5", "--material", material}, 2, {"--material", material, "[0.0001, 1]"});
   for (const char* size : {"0", "nan", "3"})
     expect_refusal({"t.h5", "--light-size", size}, 2, {"--light-size", size, "[0.001, 2]"});
