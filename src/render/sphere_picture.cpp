@@ -197,8 +197,8 @@ class Painter {
         line(fmt::format("RMSE {:.1f} % of mean", 100 * error.relative_rmse), false, 0.8);
         line(fmt::format("noise in it {:.1f} %", 100 * error.relative_noise), false, 0.8);
       }
-      if (const std::string clamped = clamping_text(row.clamped[table]); !clamped.empty())
-        line("clamped: " + clamped, false, 0.8);
+      if (!row.clamped.empty() && !row.clamped[table].empty())
+        line("clamped: " + clamping_text(row.clamped[table]), false, 0.8);
       if (error.without > 0)
         line(fmt::format("{} pixels without entry", error.without), false, 0.8);
     }

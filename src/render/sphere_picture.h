@@ -15,7 +15,7 @@ namespace ltc {
 struct SphereRow {
   SphereMaterial material;
   SphereImages images;
-  std::vector<std::vector<ClampedAxis>> clamped;  // one a table
+  std::vector<std::vector<ClampedAxis>> clamped{};  // one a table; or none, where nothing is
 };
 
 struct SpherePicture {

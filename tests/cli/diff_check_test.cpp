@@ -227,11 +227,14 @@ TEST(DiffBadInput, IsRefusedInOneLineAndWritesNothing) {
   const std::string whole = read_file(a);
   const fs::path cut = tables.write("cut.h5", whole.substr(0, whole.size() / 2));
   const std::vector<std::string> csv = {"--csv", "all.csv"};
-  const std::vector<std::string> no_use = {"--queries", "0", "--csv", "new/all.csv"};
-  expect_refused(diff(a, tables / "small.h5", no_use), 2,
+  const auto without_use = [&](const char* b) {
+    return std::vector<std::string>{"diff", a.string(), (tables / b).string(), "--queries",
+                                    "0",    "--csv",    "new/all.csv"};
+  };
+  expect_refused(without_use("small.h5"), 2,
                  {a.string(), (tables / "small.h5").string(), "different shapes", "3x2x5x4",
                   "2x2x2x2", "same grid", "--queries"});
-  expect_refused(diff(a, tables / "finer.h5", no_use), 2, {"alpha_min", "same grid"});
+  expect_refused(without_use("finer.h5"), 2, {"alpha_min", "same grid"});
   expect_refused(diff(a, tables / "small.h5", {"--map", "map.png"}), 2,
                  {"different shapes", "same grid", "--map"});
   Grid sharp = Grid::paper(2);

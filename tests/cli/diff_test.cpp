@@ -217,11 +217,11 @@ TEST(Diff, TablesOfDifferentGridsAreComparedInUse) {
       diff("coarse.h5", "fine.npy", {"--json", "all.json", "--csv", "all.csv"}), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("nodes are not compared: the tables have different grids (2x2x2x2 and "
-                            "4x3x5x4); only use is judged
-"),
+                            "4x3x5x4); only use is judged\n"),
             std::string::npos)
       << result.out;
-  EXPECT_NE(verdict_line(result.out).find("in use B ("), std::string::npos) << result.out;
+  EXPECT_NE(verdict_line(result.out).find("under area lights B ("), std::string::npos)
+      << result.out;
   EXPECT_EQ(verdict_line(result.out).find("at nodes"), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("Ratio of the losses"), std::string::npos) << result.out;
   const Json json = Json::parse(read_file(folder / "all.json"));

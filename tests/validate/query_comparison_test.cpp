@@ -49,7 +49,7 @@ TEST(CompareQueries, JudgesEachTableAsMeasureQualityDoes) {
   ASSERT_EQ(queries.size(), settings.queries);
   std::vector<QueryFloor> floors;
   for (const QueryComparison& query : queries)
-    floors.push_back({query.lobe});
+    floors.emplace_back().lobe = query.lobe;
   const QualityReport of_coarse = measure_quality(coarse, settings, floors, 2, nullptr),
                       of_fine = measure_quality(fine, settings, floors, 2, nullptr);
   for (std::size_t i = 0; i < queries.size(); ++i) {
