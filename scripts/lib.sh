@@ -20,6 +20,20 @@ fail() {
   exit 1
 }
 
+# Prints what the script's own beginning says of it, where that is what the options ask for; before
+# anything is installed or built.
+help_if_asked() {
+  local option
+  for option in "$@"; do
+    case $option in
+      -h | --help)
+        sed -n '3,/^set /{/^#/s/^# \{0,1\}//p}' "$0"
+        exit 0
+        ;;
+    esac
+  done
+}
+
 # Names the command that stopped a script.
 report_errors() {
   trap 'echo "$(basename "$0"): stopped at line $LINENO: $BASH_COMMAND" >&2' ERR

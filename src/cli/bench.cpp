@@ -14,16 +14,12 @@
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "core/error.h"
-#include "core/platform.h"
 #include "core/write_file.h"
 #include "export/reader.h"
 #include "table/entry_text.h"
 
 namespace ltc::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Keeps the whole run within two or three minutes, and lets a 99th percentile mean something.
 constexpr std::size_t default_entries = 200;
@@ -46,28 +42,6 @@ std::vector<BenchSetting> available_settings(const Arguments& arguments, const C
     settings.push_back(
         {"config", "your config", "as" + arguments.config.as_text() + " says", config.fit});
   return settings;
-}
-
-// Better now than after the run: that the files can be written, and are not the same one twice.
-void require_writable(const std::vector<std::string>& files) {
-  std::error_code ignored;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const fs::path file = files[i];
-    if (files[i].empty())
-      continue;
-    if (fs::is_directory(file, ignored))
-      throw IoError(fmt::format("cannot write {}: it is a folder", files[i]));
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored))
-      throw IoError(
-          fmt::format("cannot write {}: there is no folder {}", files[i], folder.string()));
-    platform::require_writable_folder(folder);
-    for (std::size_t j = 0; j < i; ++j)
-      if (!files[j].empty() &&
-          fs::weakly_canonical(fs::absolute(file)) == fs::weakly_canonical(fs::absolute(files[j])))
-        throw InputError(
-            fmt::format("{} is named for two outputs; expected different files", files[i]));
-  }
 }
 
 // A ratio, or a dash where nothing was judged.
@@ -150,7 +124,6 @@ void bench(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
   const Config config = arguments.config.load();
-  require_writable({arguments.json, arguments.csv, arguments.picture});
   const std::optional<Table> published = table_of(arguments.published);
   const std::optional<Table> reference = table_of(arguments.reference);
 
@@ -171,13 +144,12 @@ void bench(const Arguments& arguments) {
   report.summaries = summarize(task, report.run);
 
   progress.throw_if_stopped();
-  if (!arguments.json.empty())
-    write_file(arguments.json, frontier_json(report));
   if (!arguments.csv.empty())
     write_file(arguments.csv, frontier_csv(report));
   if (!arguments.picture.empty())
     picture::render(frontier_chart(report), 1600, 1100).write_png(arguments.picture);
-  print(report_text(report));
+  print_results(
+      arguments.json, [&] { return report_text(report); }, [&] { return frontier_json(report); });
 }
 
 void add_what_options(CLI::App& app, Arguments& arguments) {
@@ -188,8 +160,8 @@ void add_what_options(CLI::App& app, Arguments& arguments) {
       ->option_text("A,B,...")
       ->group(group);
   CLI::Option* entries =
-      app.add_option("--entries", arguments.entries, "how many of the fitted entries [200]")
-          ->check(CLI::Range(1, 1 << 24))
+      allow(app.add_option("--entries", arguments.entries, "how many of the fitted entries [200]"),
+            whole_number(1, 1 << 24))
           ->option_text("N")
           ->group(group);
   app.add_flag("--all", arguments.all, "all fitted entries")->excludes(entries)->group(group);
@@ -197,39 +169,32 @@ void add_what_options(CLI::App& app, Arguments& arguments) {
 
 void add_error_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "What errors are relative to";
-  app.add_option("--reference", arguments.reference,
-                 "table whose losses are 1 [the best setting at each entry]")
-      ->option_text("FILE")
+  const auto add_count = [&](const char* name, std::size_t& count, const char* what, double least,
+                             double most) {
+    return allow(app.add_option(name, count, fmt::format("{} [{}]", what, count)),
+                 whole_number(least, most))
+        ->option_text("N")
+        ->group(group);
+  };
+  add_input_option(app, "--reference", arguments.reference,
+                   "table whose losses are 1 [the best setting at each entry]")
       ->group(group);
   CLI::Option* published =
-      app.add_option("--published", arguments.published,
-                     "table whose error stands in for that of sgd-published [none]")
-          ->option_text("FILE")
+      add_input_option(app, "--published", arguments.published,
+                       "table whose error stands in for that of sgd-published [none]")
           ->group(group);
-  app.add_option("--full-sgd", arguments.whole_fits,
-                 "make sgd-published's whole fit at so many entries, half a minute each [0]")
-      ->check(CLI::Range(0, 1 << 24))
-      ->excludes(published)
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--samples", arguments.judge.samples, "held-out samples an entry [16384]")
-      ->check(CLI::Range(64, 1 << 20))
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--directions", arguments.judge.directions, "held-out directions an entry [64]")
-      ->check(CLI::Range(1, 4096))
-      ->option_text("N")
-      ->group(group);
+  add_count("--full-sgd", arguments.whole_fits,
+            "make sgd-published's whole fit at so many entries, half a minute each", 0, 1 << 24)
+      ->excludes(published);
+  add_count("--samples", arguments.judge.samples, "held-out samples an entry", 64, 1 << 20);
+  add_count("--directions", arguments.judge.directions, "held-out directions an entry", 1, 4096);
 }
 
 void add_output_options(CLI::App& app, Arguments& arguments) {
-  const auto add = [&](const char* name, std::string& file, const char* what) {
-    app.add_option(name, file, what)->option_text("FILE")->group("Where to write");
-  };
-  add("--json", arguments.json, "the table as JSON [none]");
-  add("--csv", arguments.csv, "every fit as a line [none]");
-  add_png_option(app, "--picture", arguments.picture, "time against error")
-      ->group("Where to write");
+  constexpr const char* group = "What to write";
+  add_json_option(app, arguments.json)->group(group);
+  add_output_option(app, "--csv", arguments.csv, "every fit as a line")->group(group);
+  add_png_option(app, "--picture", arguments.picture, "time against error")->group(group);
 }
 
 }  // namespace
@@ -239,7 +204,7 @@ Action declare_bench(CLI::App& app) {
   add_what_options(app, *arguments);
   add_error_options(app, *arguments);
   add_output_options(app, *arguments);
-  return [arguments] { bench(*arguments); };
+  return [arguments](Files&) { bench(*arguments); };
 }
 
 }  // namespace ltc::cli

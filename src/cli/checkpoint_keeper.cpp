@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
 #include <system_error>
 #include <utility>
 
+#include "cli/output.h"
 #include "core/error.h"
 #include "export/checkpoint.h"
 #include "fit/fit_table.h"
@@ -127,8 +127,8 @@ std::unique_ptr<FitJournal> open_journal(const CheckpointTask& task, bool resume
   if (exists)
     return std::make_unique<FitJournal>(read_checkpoint(task.config, task.needed, task.file));
   if (resume)
-    fmt::print(stderr, "ltcfit: no checkpoint {}; starting from the beginning\n",
-               task.file.string());
+    tell(
+        fmt::format("ltcfit: no checkpoint {}; starting from the beginning\n", task.file.string()));
   return std::make_unique<FitJournal>(task.config.grid.size(), sweep_count(task.config.fit));
 }
 

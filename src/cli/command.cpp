@@ -2,6 +2,10 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "cli/command.h"
 
+#include <fmt/format.h>
+
+#include "core/version.h"
+
 namespace ltc::cli {
 
 // One a file of the same name.
@@ -12,6 +16,18 @@ Action declare_validate(CLI::App& app);
 Action declare_bench(CLI::App& app);
 Action declare_render(CLI::App& app);
 Action declare_stress(CLI::App& app);
+Action declare_completion(CLI::App& app);
+Action declare_man(CLI::App& app);
+
+namespace {
+
+constexpr const char* about = "About";
+
+void add_help_option(CLI::App& app) {
+  app.set_help_flag("-h,--help", "print this help and exit")->group(about);
+}
+
+}  // namespace
 
 std::span<const Command> commands() {
   static constexpr Command all[] = {
@@ -29,8 +45,29 @@ std::span<const Command> commands() {
        "fit at the extremes from good and bad starts, and count what fails", declare_stress},
       {"render", "Compare and validate tables", "render spheres with a table and with sampled GGX",
        declare_render},
+      {"completion", "Help at hand", "print a script by which bash, zsh or fish complete commands",
+       declare_completion},
+      {"man", "Help at hand", "print the manual page", declare_man},
   };
   return all;
+}
+
+DeclaredCommand declared(const Command& command) {
+  auto app = std::make_unique<CLI::App>(command.summary, fmt::format("ltcfit {}", command.name));
+  app->set_help_flag("");  // CLI11 puts its own first; help stands last
+  Action action = command.declare(*app);
+  add_help_option(*app);
+  return {std::move(app), std::move(action)};
+}
+
+std::unique_ptr<CLI::App> program_options() {
+  auto app = std::make_unique<CLI::App>(
+      "ltcfit makes look-up tables of linearly transformed cosines (LTC) for anisotropic GGX.",
+      "ltcfit");
+  add_help_option(*app);
+  app->set_version_flag("--version", generator(), "print version and commit and exit")
+      ->group(about);
+  return app;
 }
 
 }  // namespace ltc::cli

@@ -5,13 +5,16 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <span>
+
+#include "cli/files.h"
 
 namespace ltc::cli {
 
-// What a subcommand does once its arguments are read; the library's exceptions tell what went
-// wrong.
-using Action = std::function<void()>;
+// What a subcommand does once its arguments are read; `files` knows the files that its options
+// name. The library's exceptions tell what went wrong.
+using Action = std::function<void(Files& files)>;
 
 struct Command {
   const char* name;
@@ -23,5 +26,15 @@ struct Command {
 
 // In the order of --help.
 std::span<const Command> commands();
+
+// A command with its options declared, --help among them.
+struct DeclaredCommand {
+  std::unique_ptr<CLI::App> app;
+  Action action;
+};
+DeclaredCommand declared(const Command& command);
+
+// The options of the whole program alone, --help and --version.
+std::unique_ptr<CLI::App> program_options();
 
 }  // namespace ltc::cli

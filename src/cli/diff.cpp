@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -34,21 +32,6 @@ struct Arguments {
   std::size_t queries = QualitySettings().queries;
   int threads = default_threads();
 };
-
-// The files to write can be written: better known now than after the comparison. Their folders are
-// created if need be, and removed again if nothing comes to lie in them.
-std::deque<OutputFolder> prepare_outputs(const Arguments& arguments) {
-  std::deque<OutputFolder> folders;  // which cannot move
-  std::error_code ignored;
-  for (const fs::path file : {arguments.csv, arguments.json, arguments.map}) {
-    if (file.empty())
-      continue;
-    if (fs::is_directory(file, ignored))
-      throw IoError(fmt::format("cannot write {}: it is a folder", file.string()));
-    folders.emplace_back(file.has_parent_path() ? file.parent_path() : ".");
-  }
-  return folders;
-}
 
 // Tables of different grids have no nodes to compare: what asks for them is refused.
 void require_comparable(const NamedTable& a, const NamedTable& b, const Arguments& arguments,
@@ -95,55 +78,33 @@ void diff(const Arguments& arguments) {
   NamedTable a{arguments.a, read_table(arguments.a)}, b{arguments.b, read_table(arguments.b)};
   const DiffSettings settings = settings_for(arguments, a.table, b.table);
   require_comparable(a, b, arguments, settings.use.queries > 0);
-  const std::deque<OutputFolder> folders = prepare_outputs(arguments);
   const DiffReport report = compare(arguments, std::move(a), std::move(b), settings, progress);
   if (!arguments.csv.empty())
     write_file(arguments.csv, report_csv(report));
-  if (!arguments.json.empty())
-    write_file(arguments.json, report_json(report));
   if (!arguments.map.empty())
     picture::render(ratio_map(report.grid(), report.nodes->entries, report.a.file, report.b.file))
         .write_png(arguments.map);
-  print(report_text(report));
+  print_results(
+      arguments.json, [&] { return report_text(report); }, [&] { return report_json(report); });
   if (const std::string failure = failure_text(report); !failure.empty())
     throw CheckFailure(failure);
 }
 
-// A message if the text is no tolerance; NaN would be one that nothing exceeds.
-std::string check_tolerance(const std::string& text) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error == std::errc() && stop == end && std::isfinite(value) && value >= 0)
-    return "";
-  return shell_quoted(text) + " is not allowed; expected a number, 0 or more";
-}
-
 void add_judge_options(CLI::App& app, Arguments& arguments) {
   CompareSettings& settings = arguments.settings;
-  constexpr const char* group = "How to judge";
-  app.add_option("--queries", arguments.queries,
-                 fmt::format("look-ups between the nodes, the same in both tables; 0: none [{}]",
-                             arguments.queries))
-      ->check(CLI::Range(0, 1 << 20))
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--samples", settings.samples,
-                 fmt::format("held-out samples a lobe [{}]", settings.samples))
-      ->check(CLI::Range(64, 1 << 20))
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--directions", settings.directions,
-                 fmt::format("held-out directions an entry; a look-up at most {} of them [{}]",
-                             QualitySettings().query_directions, settings.directions))
-      ->check(CLI::Range(1, 4096))
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--seed", settings.seed,
-                 fmt::format("seed of the held-out sets [{}]", settings.seed))
-      ->check(CLI::NonNegativeNumber)
-      ->option_text("N")
-      ->group(group);
+  const auto add = [&](const char* name, auto& value, const std::string& what, Allowed allowed) {
+    allow(app.add_option(name, value, fmt::format("{} [{}]", what, value)), std::move(allowed))
+        ->option_text("N")
+        ->group("How to judge");
+  };
+  add("--queries", arguments.queries,
+      "look-ups between the nodes, the same in both tables; 0: none", whole_number(0, 1 << 20));
+  add("--samples", settings.samples, "held-out samples a lobe", whole_number(64, 1 << 20));
+  add("--directions", settings.directions,
+      fmt::format("held-out directions an entry; a look-up at most {} of them",
+                  QualitySettings().query_directions),
+      whole_number(1, 4096));
+  add("--seed", settings.seed, "seed of the held-out sets", seed_number());
 }
 
 void add_output_options(CLI::App& app, Arguments& arguments) {
@@ -151,37 +112,32 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
   add_png_option(app, "--map", arguments.map,
                  "draw the ratio of the losses over the whole table into this file")
       ->group(group);
-  app.add_option("--csv", arguments.csv,
-                 "write the figures of every entry and look-up to this file [none]")
-      ->option_text("FILE")
+  add_output_option(app, "--csv", arguments.csv,
+                    "write the figures of every entry and look-up to this file")
       ->group(group);
-  app.add_option("--json", arguments.json, "write the whole report to this file [none]")
-      ->option_text("FILE")
-      ->group(group);
+  add_json_option(app, arguments.json)->group(group);
 }
 
 }  // namespace
 
 Action declare_diff(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
-  app.add_option("A", arguments->a, "table to judge, .h5, .npy or .0.exr")
-      ->required()
-      ->option_text(" ");
-  app.add_option("B", arguments->b, "table to judge it against, .h5, .npy or .0.exr")
-      ->required()
-      ->option_text(" ");
-  app.add_option(
-         "--tolerance", arguments->tolerance,
-         "exit with 1 where the lobes of an entry are farther apart than this share of "
-         "their spread, or amplitude or Fresnel term differ by more; of a look-up where the "
-         "grids differ [none]")
-      ->check(check_tolerance)
+  add_table_argument(app, "A", arguments->a, "table to judge");
+  add_table_argument(app, "B", arguments->b, "table to judge it against");
+  Allowed tolerance = number({0, std::numeric_limits<double>::max()});
+  tolerance.expected = "a number, 0 or more";
+  allow(app.add_option(
+            "--tolerance", arguments->tolerance,
+            "exit with 1 where the lobes of an entry are farther apart than this share of "
+            "their spread, or amplitude or Fresnel term differ by more; of a look-up where the "
+            "grids differ [none]"),
+        std::move(tolerance))
       ->option_text("X")
       ->group("What to check");
   add_judge_options(app, *arguments);
   add_output_options(app, *arguments);
   add_threads_option(app, arguments->threads);
-  return [arguments] { diff(*arguments); };
+  return [arguments](Files&) { diff(*arguments); };
 }
 
 }  // namespace ltc::cli

@@ -46,8 +46,7 @@ struct Arguments {
   std::optional<double> theta_degrees, phi_degrees;
   std::string solver, seed, samples;  // empty: the config's
   std::string start;                  // empty: the solver's own
-  std::string trace, plot;            // empty: none
-  bool json = false;
+  std::string trace, plot, json;      // empty: none
   bool check_gradient = false;
   int threads = default_threads();
 };
@@ -88,12 +87,6 @@ std::size_t parse_entry(const std::string& text, const Grid& grid) {
   return grid.flat({indices[0], indices[1], indices[2], indices[3]});
 }
 
-double require_in(const char* option, double value, bool allowed, const char* expected) {
-  if (!allowed)
-    throw InputError(fmt::format("{} {}: expected {}", option, value, expected));
-  return value;
-}
-
 bool names_parameters(const Arguments& arguments) {
   return arguments.roughness.any() || arguments.theta_degrees || arguments.phi_degrees;
 }
@@ -113,12 +106,8 @@ GgxLobe parse_lobe(const Arguments& arguments) {
                       "together, or by --entry",
                       option));
   const LobeRoughness roughness = roughness_of(arguments.roughness, least_alpha);
-  const double theta = *arguments.theta_degrees, phi = *arguments.phi_degrees;
-  return {roughness.alpha_x, roughness.alpha_y,
-          radians_of_degrees(
-              require_in("--theta", theta, theta >= 0 && theta < 90, "degrees in [0, 90)")),
-          radians_of_degrees(
-              require_in("--phi", phi, phi >= -360 && phi <= 360, "degrees in [-360, 360]"))};
+  return {roughness.alpha_x, roughness.alpha_y, radians_of_degrees(*arguments.theta_degrees),
+          radians_of_degrees(*arguments.phi_degrees)};
 }
 
 // The nine numbers of --start matrix=…, M by rows. Any numbers: solvers have to cope.
@@ -136,15 +125,20 @@ Eigen::Matrix3d parse_matrix(const std::string& text, std::string_view numbers) 
   return matrix;
 }
 
+// --start from=TABLE
+constexpr std::string_view start_from = "from=";
+std::string start_table(const std::string& start) {
+  return start.substr(start_from.size());
+}
+
 // M of --start; `entry` is that of the config's grid, where the lobe is one.
 Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const GgxLobe& lobe,
                             std::optional<std::size_t> entry, std::uint64_t seed) {
-  constexpr std::string_view from = "from=", given = "matrix=";
+  constexpr std::string_view given = "matrix=";
   if (text.starts_with(given))
     return parse_matrix(text, std::string_view(text).substr(given.size()));
-  if (text.starts_with(from)) {
-    const std::string file = text.substr(from.size());
-    const Table table = read_table(file);
+  if (text.starts_with(start_from)) {
+    const Table table = read_table(start_table(text));
     Eigen::Matrix3d matrix =
         entry && table.grid == config.grid ? table.matrix_at(*entry) : look_up(table, lobe).matrix;
     if (!matrix.allFinite())
@@ -234,7 +228,6 @@ void require_one_name(const Arguments& arguments) {
 
 // What the table holds for the lobe; nothing is fitted but the floor.
 void show_as_in(const Arguments& arguments, const Progress& progress) {
-  const std::optional<OutputFolder> folder = folder_of_file(arguments.plot);
   StoredReport report{
       arguments.as_in, contents_of(arguments.as_in), read_table(arguments.as_in), {}};
   const auto named = [&](auto&& action) {
@@ -254,14 +247,13 @@ void show_as_in(const Arguments& arguments, const Progress& progress) {
   if (!arguments.plot.empty())
     render_lobe(lobe_panels(report.lobe.lobe, report.lobe.matrix, picture_words(report)), {})
         .write_png(arguments.plot);
-  print(arguments.json ? report_json(report) : report_text(report));
+  print_results(
+      arguments.json, [&] { return report_text(report); }, [&] { return report_json(report); });
 }
 
 // The lobe's fit, every step of it.
 void show_fit(const Arguments& arguments, Progress& progress) {
   const Config config = load(arguments);
-  const std::optional<OutputFolder> trace_folder = folder_of_file(arguments.trace),
-                                    plot_folder = folder_of_file(arguments.plot);
   FitReport report = run_fit(arguments, config, progress);
   if (arguments.check_gradient)
     report.gradient = check_lobe_gradient(report.fit.lobe, report.fit.matrix);
@@ -271,15 +263,18 @@ void show_fit(const Arguments& arguments, Progress& progress) {
     render_lobe(lobe_panels(report.fit.lobe, report.fit.matrix, picture_words(report)),
                 loss_chart(report))
         .write_png(arguments.plot);
-  print(arguments.json ? report_json(report) : report_text(report));
+  print_results(
+      arguments.json, [&] { return report_text(report); }, [&] { return report_json(report); });
   if (report.gradient && !report.gradient->passed)
     throw CheckFailure("gradient check failed: " + report.gradient->describe());
 }
 
-void fit(const Arguments& arguments) {
+void fit(const Arguments& arguments, Files& files) {
   StopOnly progress;
   const StopOnInterrupt stop_on_interrupt(progress);
   require_one_name(arguments);
+  if (arguments.start.starts_with(start_from))
+    files.read("--start", start_table(arguments.start));
   if (arguments.as_in.empty())
     show_fit(arguments, progress);
   else
@@ -293,45 +288,40 @@ void add_lobe_options(CLI::App& app, Arguments& arguments) {
                  "of that table: 3,0,7,4")
       ->option_text("A,L,T,P")
       ->group(group);
-  app.add_option("--as-in", arguments.as_in,
-                 "fit no entry: show what this table (.h5, .npy or .0.exr) holds for the entry or "
-                 "gives for the lobe, and what a fit of that very lobe would [none]")
-      ->check([](const std::string& text) {
-        return std::string(text.empty() ? "is empty; expected a table's file" : "");
-      })
-      ->option_text("TABLE")
+  add_input_option(
+      app, "--as-in", arguments.as_in,
+      "fit no entry: show what this table (.h5, .npy or .0.exr) holds for the entry or "
+      "gives for the lobe, and what a fit of that very lobe would [none]")
       ->group(group);
-  app.add_option("--scene", arguments.scene, "the scene that the table was made for [none]")
-      ->option_text("FILE")
+  add_input_option(app, "--scene", arguments.scene, "the scene that the table was made for [none]")
       ->group(group);
   add_roughness_options(
       app, arguments.roughness,
       {"roughness along x, in [1e-12, 1]", "roughness along y, in [1e-12, 1]", group});
-  app.add_option("--theta", arguments.theta_degrees,
-                 "angle between view and normal, degrees in [0, 90)")
+  allow(app.add_option("--theta", arguments.theta_degrees,
+                       "angle between view and normal, degrees in [0, 90)"),
+        number(below(0, 90)))
       ->option_text("DEGREES")
       ->group(group);
-  app.add_option("--phi", arguments.phi_degrees, "azimuth of the view, degrees")
+  allow(app.add_option("--phi", arguments.phi_degrees, "azimuth of the view, degrees"),
+        number({-360, 360}))
       ->option_text("DEGREES")
       ->group(group);
 }
 
 void add_fit_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "How to fit";
-  app.add_option("--solver", arguments.solver, "gauss-newton, sgd or l3-nelder-mead [fit.solver]")
-      ->check([](const std::string& name) {
-        return std::string(name == "gauss-newton" || name == "sgd" || name == "l3-nelder-mead"
-                               ? ""
-                               : shell_quoted(name) +
-                                     " is not allowed; expected gauss-newton, "
-                                     "sgd or l3-nelder-mead");
-      })
+  allow_names(app.add_option("--solver", arguments.solver,
+                             "gauss-newton, sgd or l3-nelder-mead [fit.solver]"),
+              {"gauss-newton", "sgd", "l3-nelder-mead"})
       ->option_text("NAME")
       ->group(group);
-  app.add_option("--seed", arguments.seed, "seed of everything random [fit.seed]")
+  allow(app.add_option("--seed", arguments.seed, "seed of everything random [fit.seed]"),
+        seed_number())
       ->option_text("N")
       ->group(group);
-  app.add_option("--samples", arguments.samples, "cosine samples [fit.SOLVER.samples]")
+  allow(app.add_option("--samples", arguments.samples, "cosine samples [fit.SOLVER.samples]"),
+        whole_number(1, 1 << 20))
       ->option_text("N")
       ->group(group);
   app.add_option("--start", arguments.start,
@@ -346,9 +336,8 @@ void add_fit_options(CLI::App& app, Arguments& arguments) {
 
 void add_output_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "What to write";
-  app.add_flag("--json", arguments.json, "print JSON instead of text")->group(group);
-  app.add_option("--trace", arguments.trace, "write every step to this file, as CSV [none]")
-      ->option_text("FILE")
+  add_json_option(app, arguments.json)->group(group);
+  add_output_option(app, "--trace", arguments.trace, "write every step to this file, as CSV")
       ->group(group);
   add_png_option(app, "--plot", arguments.plot, "draw GGX, LTC and their difference into this file")
       ->group(group);
@@ -366,7 +355,7 @@ Action declare_fit(CLI::App& app) {
   for (const char* of_fits : {"--config", "--set", "--scene", "--solver", "--seed", "--samples",
                               "--start", "--trace", "--check-gradient"})
     app.get_option("--as-in")->excludes(app.get_option(of_fits));
-  return [arguments] { fit(*arguments); };
+  return [arguments](Files& files) { fit(*arguments, files); };
 }
 
 }  // namespace ltc::cli

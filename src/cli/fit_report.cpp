@@ -11,6 +11,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "cli/json_text.h"
 #include "cli/lobe_words.h"
 #include "table/entry_text.h"
 #include "validate/matrix_invariants.h"
@@ -220,7 +221,7 @@ std::string report_json(const FitReport& report) {
     json["gradient_check"] = {{"passed", report.gradient->passed},
                               {"largest_relative_error", report.gradient->largest_relative_error},
                               {"undecided", report.gradient->undecided_count()}};
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 std::string trace_csv(const FitReport& report) {

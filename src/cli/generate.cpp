@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -37,26 +36,15 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   ConfigArguments config;
-  std::string scene;   // empty: the whole table
-  std::string extend;  // empty: a new table
-  std::string output = "out";
+  std::string scene;                 // empty: the whole table
+  std::string extend;                // empty: a new table
+  std::string output = "out", json;  // json empty: none
   int threads = default_threads();
   bool resume = false;
   double checkpoint_seconds = 5;
 };
 
 constexpr double most_checkpoint_seconds = 86400;
-
-// A message if the text is no time between checkpoints.
-std::string check_checkpoint_seconds(const std::string& text) {
-  double seconds = -1;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, seconds);
-  if (error == std::errc() && stop == end && seconds >= 0 && seconds <= most_checkpoint_seconds)
-    return "";
-  return fmt::format("{} is not allowed; expected a number in [0, {}]", text,
-                     most_checkpoint_seconds);
-}
 
 // NPY says nothing of axes and storage: it is for the paper's grid alone.
 bool writes_npy(const Config& config) {
@@ -75,13 +63,8 @@ std::vector<fs::path> files_of(const Config& config, const fs::path& folder) {
   return files;
 }
 
-// Better now than after the fit: a folder cannot be replaced by a file.
-void require_replaceable(const std::vector<fs::path>& files) {
-  std::error_code ignored;
-  for (const fs::path& file : files)
-    if (fs::is_directory(file, ignored))
-      throw IoError(fmt::format("cannot write {}: it is a folder; remove it or set output.name",
-                                file.string()));
+fs::path checkpoint_of(const Config& config, const fs::path& folder) {
+  return folder / (config.output.name + ".checkpoint.h5");
 }
 
 // All or none: an older set of files stands until the new one is on the disk.
@@ -156,7 +139,7 @@ void require_any_value(const Table& table) {
 // Fits the table and writes its files, or leaves a checkpoint to go on from.
 Table make_files(const Arguments& arguments, const Config& config, const Work& work,
                  const fs::path& folder, Progress& progress, RunReport& report) {
-  const CheckpointTask task{folder / (config.output.name + ".checkpoint.h5"), config, work.to_fit,
+  const CheckpointTask task{checkpoint_of(config, folder), config, work.to_fit,
                             arguments.checkpoint_seconds};
   const std::unique_ptr<FitJournal> journal = open_journal(task, arguments.resume);
   report.resumed = journal->count();
@@ -208,20 +191,22 @@ void name_commands(const Arguments& arguments, RunReport& report) {
         fmt::format("ltcfit fit --as-in {} --entry", shell_quoted(report.files.front().string()));
 }
 
-void generate(const Arguments& arguments) {
+void generate(const Arguments& arguments, Files& files) {
   const Clock::time_point began = Clock::now();
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
 
   const Config config = arguments.config.load();
   const Work work = plan_work(arguments, config);
-  const OutputFolder folder(arguments.output);
-  const platform::FolderLock lock(folder.path());
+  const fs::path folder = files.make_folder(arguments.output);
+  const platform::FolderLock lock(folder);
   RunReport report;
-  report.files = files_of(config, folder.path());
-  require_replaceable(report.files);
+  report.files = files_of(config, folder);
+  for (const fs::path& file : report.files)
+    files.write("--output", file);
+  files.write("--output", checkpoint_of(config, folder));
 
-  const Table table = make_files(arguments, config, work, folder.path(), progress, report);
+  const Table table = make_files(arguments, config, work, folder, progress, report);
   report.needed = count_true(work.needed);
   report.added = count_true(work.to_fit);
   report.extends = work.existing.has_value();
@@ -229,7 +214,9 @@ void generate(const Arguments& arguments) {
   report.seconds = seconds_since(began);
   report.peak_memory_bytes = platform::peak_memory_bytes();
   name_commands(arguments, report);
-  print(summary_text(table, report));
+  print_results(
+      arguments.json, [&] { return summary_text(table, report); },
+      [&] { return summary_json(table, report); });
   require_none_failed(table);
 }
 
@@ -238,23 +225,31 @@ void generate(const Arguments& arguments) {
 Action declare_generate(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   add_config_options(app, arguments->config);
-  app.add_option(
-      "--scene", arguments->scene,
-      "fit only what this scene's materials need: TOML, .gltf or .glb [the whole table]");
-  app.add_option("--extend", arguments->extend,
-                 "keep the entries of this .h5 bit for bit and add what is lacking [none]");
-  add_output_option(app, arguments->output);
+  constexpr const char *what = "What to fit", *how = "How to run", *where = "What to write";
+  add_input_option(
+      app, "--scene", arguments->scene,
+      "fit only what this scene's materials need: TOML, .gltf or .glb [the whole table]")
+      ->group(what);
+  // No input that Files keeps from being replaced: the table may be extended where it lies, for it
+  // keeps all that it holds.
+  allow(app.add_option("--extend", arguments->extend,
+                       "keep the entries of this .h5 bit for bit and add what is lacking [none]"),
+        {"a table's .h5", [](std::string& text) { return fs::path(text).extension() == ".h5"; }})
+      ->option_text("FILE")
+      ->group(what);
+  add_folder_option(app, "-o,--output", arguments->output, "folder for the files")->group(where);
+  add_json_option(app, arguments->json)->group(where);
   app.add_flag("--resume", arguments->resume,
                "go on from the checkpoint that a run left in the folder when it was cut short")
-      ->group("How to run");
-  app.add_option("--checkpoint-seconds", arguments->checkpoint_seconds,
-                 fmt::format("time between checkpoints, up to {}; 0: none [{}]",
-                             most_checkpoint_seconds, arguments->checkpoint_seconds))
-      ->check(check_checkpoint_seconds)
+      ->group(how);
+  allow(app.add_option("--checkpoint-seconds", arguments->checkpoint_seconds,
+                       fmt::format("time between checkpoints, up to {}; 0: none [{}]",
+                                   most_checkpoint_seconds, arguments->checkpoint_seconds)),
+        number({0, most_checkpoint_seconds}))
       ->option_text("S")
-      ->group("How to run");
+      ->group(how);
   add_threads_option(app, arguments->threads);
-  return [arguments] { generate(*arguments); };
+  return [arguments](Files& files) { generate(*arguments, files); };
 }
 
 }  // namespace ltc::cli

@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "cli/output.h"
+#include "core/error.h"
 #include "export/hdf5.h"
 
 namespace ltc::cli {
@@ -15,17 +18,112 @@ namespace {
 
 constexpr int most_threads = 1024;
 
-// A message if the text is no number of threads.
-std::string check_threads(const std::string& text) {
-  int threads = 0;
+std::optional<double> number_of(std::string_view text) {
+  double value = 0;
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, threads);
-  if (error == std::errc() && stop == end && threads >= 1 && threads <= most_threads)
-    return "";
-  return fmt::format("{} is not allowed; expected a whole number in [1, {}]", text, most_threads);
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
+}
+
+CLI::Option* of_kind(CLI::Option* option, std::string_view kind, const char* shown_as) {
+  return option->type_name(std::string(kind))->option_text(shown_as);
 }
 
 }  // namespace
+
+Allowed whole_number(double least, double most) {
+  const Range range{least, most};
+  return {"a whole number in " + range.text(), [=](std::string& text) {
+            const std::optional<double> value = number_of(text);
+            if (!value || !range.contains(*value) || *value != std::trunc(*value))
+              return false;
+            if (text.find_first_not_of("0123456789") != std::string::npos)
+              text = fmt::format("{:.0f}", *value);
+            return true;
+          }};
+}
+
+Allowed number(const Range& range) {
+  return {"a number in " + range.text(), [=](std::string& text) {
+            const std::optional<double> value = number_of(text);
+            return value && range.contains(*value);
+          }};
+}
+
+Allowed not_empty(const std::string& expected) {
+  return {expected, [](std::string& text) { return !text.empty(); }};
+}
+
+Allowed seed_number() {
+  return whole_number(0, 9007199254740992);  // 2^53: exact wherever JSON or a double carries it
+}
+
+CLI::Option* allow(CLI::Option* option, Allowed allowed) {
+  const auto check = [allowed = std::move(allowed), option](std::string& text) {
+    if (!allowed.take(text))
+      throw InputError(fmt::format("{} {}: expected {}", option->get_name(), shell_quoted(text),
+                                   allowed.expected));
+    return std::string();
+  };
+  return option->transform(CLI::Validator(check, ""));
+}
+
+CLI::Option* allow_names(CLI::Option* option, const std::vector<std::string>& names) {
+  const auto is_one = [names](std::string& text) {
+    return std::find(names.begin(), names.end(), text) != names.end();
+  };
+  const std::vector<std::string> first(names.begin(), names.end() - 1);
+  option->type_name(fmt::format("{{{}}}", fmt::join(names, ",")));
+  return allow(option, {fmt::format("{} or {}", fmt::join(first, ", "), names.back()), is_one});
+}
+
+CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::string& file,
+                              const std::string& what) {
+  CLI::Option* const option = of_kind(app.add_option(name, file, what), value_kind::input, "FILE");
+  return allow(option, not_empty("a file"));
+}
+
+void add_table_argument(CLI::App& app, const std::string& name, std::string& file,
+                        const std::string& what) {
+  add_input_option(app, name, file, what + ", .h5, .npy or .0.exr")->required();
+}
+
+CLI::Option* add_output_option(CLI::App& app, const std::string& name, std::string& file,
+                               const std::string& what) {
+  CLI::Option* const option =
+      of_kind(app.add_option(name, file, what + " [none]"), value_kind::output, "FILE");
+  return allow(option, {"a file; ./- is one of that name",
+                        [](std::string& text) { return !text.empty() && text != "-"; }});
+}
+
+CLI::Option* add_png_option(CLI::App& app, const std::string& name, std::string& file,
+                            const std::string& what) {
+  // A folder is refused by Files, with the reason.
+  const auto is_png = [](std::string& text) {
+    return std::filesystem::is_directory(text) || std::filesystem::path(text).extension() == ".png";
+  };
+  CLI::Option* const option =
+      of_kind(app.add_option(name, file, what + ", as PNG [none]"), value_kind::output, "FILE");
+  return allow(option, {"a file that ends in .png", is_png});
+}
+
+CLI::Option* add_folder_option(CLI::App& app, const std::string& name, std::string& folder,
+                               const std::string& what) {
+  const std::string standard = folder.empty() ? "none" : folder;
+  CLI::Option* const option = of_kind(
+      app.add_option(name, folder, fmt::format("{}, created if need be [{}]", what, standard)),
+      value_kind::folder, "DIR");
+  return allow(option, not_empty("a folder"));
+}
+
+CLI::Option* add_json_option(CLI::App& app, std::string& file) {
+  CLI::Option* const option = of_kind(
+      app.add_option("--json", file,
+                     "write all results to this file as JSON; -: to standard output, in place of "
+                     "the text [none]"),
+      value_kind::json, "FILE");
+  return allow(option, not_empty("a file, or - for standard output"));
+}
 
 std::optional<std::filesystem::path> ConfigArguments::path() const {
   return file.empty() ? std::nullopt : std::optional<std::filesystem::path>(file);
@@ -48,13 +146,7 @@ std::string ConfigArguments::as_text() const {
 }
 
 void add_config_options(CLI::App& app, ConfigArguments& arguments, const ConfigHelp& help) {
-  const auto not_empty = [](const std::string& text) {
-    return std::string(text.empty() ? "is empty; expected a TOML file or a table's .h5" : "");
-  };
-  app.add_option("-c,--config", arguments.file, help.file)
-      ->check(not_empty)
-      ->option_text("FILE")
-      ->group(help.group);
+  add_input_option(app, "-c,--config", arguments.file, help.file)->group(help.group);
   app.add_option(
          "-s,--set", arguments.overrides,
          fmt::format("change one key of the config, for example {}; can be repeated", help.example))
@@ -63,31 +155,10 @@ void add_config_options(CLI::App& app, ConfigArguments& arguments, const ConfigH
       ->group(help.group);
 }
 
-void add_output_option(CLI::App& app, std::string& folder) {
-  app.add_option("-o,--output", folder,
-                 fmt::format("folder for the files, created if need be [{}]", folder))
-      ->check([](const std::string& text) {
-        return std::string(text.empty() ? "is empty; expected a folder" : "");
-      })
-      ->option_text("DIR")
-      ->group("Where to write");
-}
-
-CLI::Option* add_png_option(CLI::App& app, const std::string& name, std::string& file,
-                            const std::string& what) {
-  // A folder is refused where the picture is written, with the reason.
-  const auto is_png = [](const std::string& text) {
-    const bool good =
-        std::filesystem::is_directory(text) || std::filesystem::path(text).extension() == ".png";
-    return good ? std::string() : fmt::format("{} does not end in .png", text);
-  };
-  return app.add_option(name, file, what + ", as PNG [none]")->check(is_png)->option_text("FILE");
-}
-
 void add_threads_option(CLI::App& app, int& threads) {
-  app.add_option("-t,--threads", threads,
-                 "threads; the result has the same bits with any number [one a processor]")
-      ->check(check_threads)
+  allow(app.add_option("-t,--threads", threads,
+                       "threads; the result has the same bits with any number [one a processor]"),
+        whole_number(1, most_threads))
       ->option_text("N")
       ->group("How to run");
 }

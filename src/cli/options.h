@@ -1,17 +1,69 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Options that several subcommands share.
+// How options are declared: what their values may be, which files they name, and those that several
+// subcommands share.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/config.h"
+#include "core/range.h"
 
 namespace ltc::cli {
+
+// ---- Values ----
+
+// What a value may be: `take` tells, and may write it in the form that its type is read from.
+struct Allowed {
+  std::string expected;  // completes "expected …"
+  std::function<bool(std::string&)> take;
+};
+Allowed whole_number(double least, double most);  // also as 1e6
+Allowed number(const Range& range);
+Allowed not_empty(const std::string& expected);
+// The seeds that configs take too.
+Allowed seed_number();
+
+// Refuses other values with one line, "--samples 5: expected a whole number in [64, 4096]".
+CLI::Option* allow(CLI::Option* option, Allowed allowed);
+
+// Likewise all but these names.
+CLI::Option* allow_names(CLI::Option* option, const std::vector<std::string>& names);
+
+// ---- Files ----
+
+// What the value of an option is. Kept as the option's type name, for Files and for completion;
+// of names, "{a,b}".
+namespace value_kind {
+inline constexpr std::string_view input = "input", output = "output", json = "json",
+                                  folder = "folder";
+}
+
+// A file that the command reads.
+CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::string& file,
+                              const std::string& what);
+// The same, as an argument without a name that has to be given: a table of any format.
+void add_table_argument(CLI::App& app, const std::string& name, std::string& file,
+                        const std::string& what);
+// A file that the command writes, in a folder that is there.
+CLI::Option* add_output_option(CLI::App& app, const std::string& name, std::string& file,
+                               const std::string& what);
+// One that is written as PNG; other endings are refused, for viewers go by them.
+CLI::Option* add_png_option(CLI::App& app, const std::string& name, std::string& file,
+                            const std::string& what);
+// A folder that the command creates if need be, with Files::make_folder.
+CLI::Option* add_folder_option(CLI::App& app, const std::string& name, std::string& folder,
+                               const std::string& what);
+// --json, for print_results (cli/output.h).
+CLI::Option* add_json_option(CLI::App& app, std::string& file);
+
+// ---- Shared by several ----
 
 // --config and --set.
 struct ConfigArguments {
@@ -27,14 +79,10 @@ struct ConfigArguments {
 // How the help describes them.
 struct ConfigHelp {
   const char* file = "TOML file that says what differs from the defaults, or a table's .h5 [none]";
-  const char* example = "fit.seed=2";
+  const char* example = "fit.gauss_newton.samples=4096";
   const char* group = "What to fit";
 };
 void add_config_options(CLI::App& app, ConfigArguments& arguments, const ConfigHelp& help = {});
-void add_output_option(CLI::App& app, std::string& folder);
-// A file that is written as PNG; other endings are refused, for viewers go by them.
-CLI::Option* add_png_option(CLI::App& app, const std::string& name, std::string& file,
-                            const std::string& what);
 void add_threads_option(CLI::App& app, int& threads);
 
 // As many threads as this process may use processors.

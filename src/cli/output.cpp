@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/platform.h"
+#include "core/write_file.h"
 
 namespace ltc::cli {
 
@@ -21,6 +22,23 @@ void print(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written || std::fflush(stdout) != 0)
     throw IoError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+}
+
+void print_results(const std::string& json_file, const std::function<std::string()>& text,
+                   const std::function<std::string()>& json) {
+  if (json_file == "-") {
+    print(json());
+    return;
+  }
+  if (!json_file.empty())
+    write_file(json_file, json());
+  print(text());
+}
+
+void tell(std::string_view text) {
+  // Not fmt::print, which throws, and as one write: lines of several threads stay apart.
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
 }
 
 std::string one_line(std::string_view text) {
@@ -57,16 +75,6 @@ void OutputFolder::remove_created() {
   std::error_code ignored;
   for (auto folder = created_.rbegin(); folder != created_.rend(); ++folder)
     fs::remove(*folder, ignored);  // refuses a folder that holds anything
-}
-
-std::optional<OutputFolder> folder_of_file(const std::filesystem::path& file) {
-  if (file.empty())
-    return std::nullopt;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw IoError(fmt::format("cannot write {}: it is a folder", file.string()));
-  return std::optional<OutputFolder>(std::in_place,
-                                     file.has_parent_path() ? file.parent_path() : ".");
 }
 
 }  // namespace ltc::cli

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +15,14 @@ namespace ltc::cli {
 
 // Writes to standard output and makes sure that it arrived: throws IoError if not (a full disk).
 void print(std::string_view text);
+
+// The results of a command: as JSON where --json asks for it, and as text on standard output,
+// except where that is where the JSON goes ("-"). Throws IoError as print and write_file.
+void print_results(const std::string& json_file, const std::function<std::string()>& text,
+                   const std::function<std::string()>& json);
+
+// Writes to standard error, if that takes it: what is told there is worth no failure.
+void tell(std::string_view text);
 
 // The text on one line: control characters escaped.
 std::string one_line(std::string_view text);
@@ -37,9 +45,5 @@ class OutputFolder {
   std::filesystem::path path_;
   std::vector<std::filesystem::path> created_;  // outermost first
 };
-
-// The folder of a file that is to be written, created if need be: better now than after the work.
-// None where the name is empty. Throws IoError as OutputFolder, and where the name is a folder's.
-std::optional<OutputFolder> folder_of_file(const std::filesystem::path& file);
 
 }  // namespace ltc::cli

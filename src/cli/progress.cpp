@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdlib>
 
+#include "cli/output.h"
 #include "core/platform.h"
 
 namespace ltc::cli {
@@ -27,6 +28,12 @@ std::string rate_and_rest(const StageState& state, std::string_view separator) {
   const double left = static_cast<double>(state.total - state.done) / per_second;
   return fmt::format("{0}{1:.{2}f}/s{0}{3} left", separator, per_second, per_second < 10 ? 1 : 0,
                      duration_text(left));
+}
+
+// One that knows no bars: it would show the codes that draw them.
+bool terminal_is_dumb() {
+  const char* const kind = std::getenv("TERM");
+  return kind && std::string_view(kind) == "dumb";
 }
 
 double fraction(const StageState& state) {
@@ -65,7 +72,8 @@ std::string line_text(const StageState& state) {
                      rate_and_rest(state, ", "));
 }
 
-ProgressDisplay::ProgressDisplay() : on_terminal_(platform::standard_error_is_terminal()) {}
+ProgressDisplay::ProgressDisplay()
+    : on_terminal_(platform::standard_error_is_terminal() && !terminal_is_dumb()) {}
 
 ProgressDisplay::~ProgressDisplay() {
   {
@@ -85,7 +93,7 @@ void ProgressDisplay::begin_stage(std::string_view name, std::size_t total) {
   total_ = total;
   stage_began_ = Clock::now();
   if (!on_terminal_)
-    fmt::print(stderr, "{}: {} to do\n", stage_, total_);
+    tell(fmt::format("{}: {} to do\n", stage_, total_));
   if (!drawer_.joinable())
     drawer_ = std::thread([this] { draw_until_closed(); });
 }
@@ -95,7 +103,8 @@ void ProgressDisplay::end_stage() {
   erase_bar();
   const double seconds = std::chrono::duration<double>(Clock::now() - stage_began_).count();
   if (!on_terminal_ && !stage_.empty())
-    fmt::print(stderr, "{}: done in {}\n", stage_, duration_text(seconds));
+    tell(fmt::format("{}: {} {}\n", stage_, stop_requested() ? "stopped after" : "done in",
+                     duration_text(seconds)));
   stage_.clear();
 }
 
@@ -112,17 +121,16 @@ void ProgressDisplay::draw() {
   const double seconds = std::chrono::duration<double>(Clock::now() - stage_began_).count();
   const StageState state{stage_, std::min(done(), total_), total_, seconds};
   if (on_terminal_) {
-    fmt::print(stderr, "\r\033[K{}", bar_text(state, platform::terminal_columns()));
+    tell("\r\033[K" + bar_text(state, platform::terminal_columns()));
     bar_visible_ = true;
   } else {
-    fmt::print(stderr, "{}\n", line_text(state));
+    tell(line_text(state) + "\n");
   }
-  std::fflush(stderr);
 }
 
 void ProgressDisplay::erase_bar() {
   if (bar_visible_)
-    fmt::print(stderr, "\r\033[K");
+    tell("\r\033[K");
   bar_visible_ = false;
 }
 

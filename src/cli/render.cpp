@@ -93,6 +93,7 @@ Tables load_tables(const Arguments& arguments) {
 struct Destination {
   fs::path folder;
   std::string stem;
+  bool is_folder;  // what was named
 
   fs::path picture() const { return folder / (stem + ".png"); }
   fs::path images(const SphereMaterial& material) const {
@@ -102,22 +103,19 @@ struct Destination {
 
 Destination destination_of(const fs::path& output) {
   if (output.extension() != ".png")
-    return {output, "spheres"};
+    return {output, "spheres", true};
   const fs::path folder = output.parent_path();
-  return {folder.empty() ? fs::path(".") : folder, output.stem().string()};
+  return {folder.empty() ? fs::path(".") : folder, output.stem().string(), false};
 }
 
-// What is wrong with an output, if anything. A folder may have a dot in its name, but one that is
-// called like another picture is a mistake.
-std::string refusal_of_output(const std::string& text) {
-  if (text.empty())
-    return "is empty; expected a folder or a .png";
+// A folder may have a dot in its name, but one that is called like another picture is a mistake.
+bool is_folder_or_png(const std::string& text) {
   const std::string ending = fs::path(text).extension().string();
   for (const char* other :
        {".bmp", ".exr", ".gif", ".jpeg", ".jpg", ".pdf", ".svg", ".tif", ".tiff"})
     if (ending == other && !fs::is_directory(text))
-      return fmt::format("{} is neither a folder nor a .png", text);
-  return {};
+      return false;
+  return !text.empty();
 }
 
 // Which table clamps what of a material.
@@ -214,18 +212,20 @@ SpherePicture picture_of(const RenderReport& report) {
   return content;
 }
 
-void render(const Arguments& arguments) {
+void render(const Arguments& arguments, Files& files) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
   const std::vector<SphereMaterial> materials = materials_of(arguments);
   const Tables tables = load_tables(arguments);
   const Destination destination = destination_of(arguments.output);
-  const OutputFolder folder(destination.folder);
-  const std::optional<OutputFolder> json_folder = folder_of_file(arguments.json);
-
+  if (destination.is_folder)
+    files.make_folder(destination.folder);
   RenderReport report = report_of(arguments, materials, tables, destination);
+  files.write("--output", report.picture);
+  for (const fs::path& image : report.images)
+    files.write("--output", image);
   // Before the work: whoever meant another table stops it.
-  fmt::print(stderr, "{}", clamping_warnings(report));
+  tell(clamping_warnings(report));
   render_all(arguments, tables, report, progress);
   require_some_entries(report);
   const picture::Canvas picture = draw(picture_of(report));
@@ -234,18 +234,15 @@ void render(const Arguments& arguments) {
   for (std::size_t row = 0; row < report.rows.size(); ++row)
     write_images(report.rows[row], arguments, report.images[row]);
   picture.write_png(report.picture);
-  if (!arguments.json.empty())
-    write_file(arguments.json, report_json(report));
-  print(report_text(report));
+  print_results(
+      arguments.json, [&] { return report_text(report); }, [&] { return report_json(report); });
 }
 
 }  // namespace
 
 Action declare_render(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
-  app.add_option("TABLE", arguments->table, "table to render with, .h5, .npy or .0.exr")
-      ->required()
-      ->option_text(" ");
+  add_table_argument(app, "TABLE", arguments->table, "table to render with");
   constexpr const char* what = "What to render";
   add_roughness_options(app, arguments->roughness,
                         {"roughness along the parallels [the four materials of figure 14]",
@@ -256,40 +253,39 @@ Action declare_render(CLI::App& app) {
       ->allow_extra_args(false)
       ->option_text("X,Y")
       ->group(what);
-  app.add_option("--light-size", arguments->light_size,
-                 "width and height of the light over those of figure 14 [1]")
-      ->check([](const std::string& text) {
-        const double size = std::strtod(text.c_str(), nullptr);  // Range lets NaN pass
-        return std::string(size >= 0.001 && size <= 2 ? "" : text + " is not in [0.001, 2]");
-      })
+  allow(app.add_option("--light-size", arguments->light_size,
+                       "width and height of the light over those of figure 14 [1]"),
+        number({0.001, 2}))
       ->option_text("S")
       ->group(what);
-  app.add_option("--f0", arguments->f0, "reflectance at normal incidence, of Schlick's term [1]")
-      ->check(CLI::Range(0.0, 1.0))
+  allow(app.add_option("--f0", arguments->f0,
+                       "reflectance at normal incidence, of Schlick's term [1]"),
+        number({0, 1}))
       ->option_text("X")
       ->group(what);
-  app.add_option("--table-b", arguments->table_b, "another table to compare with [none]")
-      ->option_text("FILE")
+  add_input_option(app, "--table-b", arguments->table_b, "another table to compare with [none]")
       ->group(what);
-  app.add_option("--size", arguments->settings.size, "width and height of a sphere, pixels [320]")
-      ->check(CLI::Range(8, 2048))
+  allow(app.add_option("--size", arguments->settings.size,
+                       "width and height of a sphere, pixels [320]"),
+        whole_number(8, 2048))
       ->option_text("N")
       ->group("How to render");
-  app.add_option("--samples", arguments->settings.samples,
-                 "samples of the GGX reference a pixel, rounded up to a multiple of 16 [2048]")
-      ->check(CLI::Range(16, 1 << 20))
+  allow(app.add_option("--samples", arguments->settings.samples,
+                       "samples of the GGX reference a pixel, rounded up to a multiple of 16 "
+                       "[2048]"),
+        whole_number(16, 1 << 20))
       ->option_text("N")
       ->group("How to render");
-  app.add_option("-o,--output", arguments->output,
-                 "folder for spheres.png and an .exr a material, or the name of the .png [out]")
-      ->check(refusal_of_output)
+  allow(app.add_option("-o,--output", arguments->output,
+                       "folder for spheres.png and an .exr a material, created if need be, or the "
+                       "name of the .png [out]"),
+        {"a folder, or a file that ends in .png", is_folder_or_png})
+      ->type_name(std::string(value_kind::folder))
       ->option_text("PATH")
-      ->group("Where to write");
-  app.add_option("--json", arguments->json, "write the report to this file [none]")
-      ->option_text("FILE")
-      ->group("Where to write");
+      ->group("What to write");
+  add_json_option(app, arguments->json)->group("What to write");
   add_threads_option(app, arguments->threads);
-  return [arguments] { render(*arguments); };
+  return [arguments](Files& files) { render(*arguments, files); };
 }
 
 }  // namespace ltc::cli

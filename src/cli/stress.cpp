@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -184,10 +185,17 @@ std::string report_text(const StressReport& report) {
   return text + (verdict.missed_bars.empty() ? "  all bars reached\n" : "");
 }
 
+// The pictures of success and of loss.
+std::array<fs::path, 2> maps_of(const std::string& solver, const fs::path& folder) {
+  return {folder / ("stress-" + solver + "-success.png"),
+          folder / ("stress-" + solver + "-loss.png")};
+}
+
 void write_maps(const fs::path& folder, const std::vector<StressReport>& reports) {
   for (const StressReport& report : reports) {
-    render(success_map(report)).write_png(folder / ("stress-" + report.name + "-success.png"));
-    render(ratio_map(report)).write_png(folder / ("stress-" + report.name + "-loss.png"));
+    const auto [success, loss] = maps_of(report.name, folder);
+    render(success_map(report)).write_png(success);
+    render(ratio_map(report)).write_png(loss);
   }
 }
 
@@ -201,24 +209,7 @@ void require_bars(const std::vector<StressReport>& reports) {
     throw CheckFailure(missed);
 }
 
-void stress(const Arguments& arguments) {
-  ProgressDisplay progress;
-  const StopOnInterrupt stop_on_interrupt(progress);
-  const std::vector<Solver> solvers = solvers_of(arguments);
-  const std::optional<OutputFolder> json_folder = folder_of_file(arguments.json);
-  const std::optional<OutputFolder> csv_folder = folder_of_file(arguments.csv);
-  std::optional<OutputFolder> map_folder;
-  if (!arguments.map.empty())
-    map_folder.emplace(arguments.map);
-  std::vector<StressReport> reports;
-  for (const Solver& solver : solvers)
-    reports.push_back(run_solver(arguments, solver, progress));
-  if (!arguments.json.empty())
-    write_file(arguments.json, stress_json(reports));
-  if (!arguments.csv.empty())
-    write_file(arguments.csv, stress_csv(reports));
-  if (map_folder)
-    write_maps(map_folder->path(), reports);
+std::string report_text(const std::vector<StressReport>& reports) {
   std::string text = fmt::format(
       "Losses are those of a judge in double precision, {} graded samples and {} directions, that\n"
       "shares nothing with the fits. A fit fails above 1.05 times the least loss that any start,\n"
@@ -226,48 +217,59 @@ void stress(const Arguments& arguments) {
       reports.front().task.judge.samples, reports.front().task.judge.directions);
   for (const StressReport& report : reports)
     text += "\n" + report_text(report);
-  print(text);
+  return text;
+}
+
+void stress(const Arguments& arguments, Files& files) {
+  ProgressDisplay progress;
+  const StopOnInterrupt stop_on_interrupt(progress);
+  const std::vector<Solver> solvers = solvers_of(arguments);
+  if (!arguments.map.empty())
+    for (const Solver& solver : solvers)
+      for (const fs::path& file : maps_of(solver.name, files.make_folder(arguments.map)))
+        files.write("--map", file);
+  std::vector<StressReport> reports;
+  for (const Solver& solver : solvers)
+    reports.push_back(run_solver(arguments, solver, progress));
+  if (!arguments.csv.empty())
+    write_file(arguments.csv, stress_csv(reports));
+  if (!arguments.map.empty())
+    write_maps(arguments.map, reports);
+  print_results(
+      arguments.json, [&] { return report_text(reports); }, [&] { return stress_json(reports); });
   require_bars(reports);
 }
 
 void add_what_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "What to fit";
   add_config_options(app, arguments.config);
-  app.add_option("--solver", arguments.solver,
-                 "only this one: gauss-newton, sgd or l3-nelder-mead [all, or the config's]")
-      ->check([](const std::string& name) {
-        const bool known = std::any_of(std::begin(choices), std::end(choices),
-                                       [&](const SolverChoice& c) { return name == c.name; });
-        return std::string(known ? ""
-                                 : shell_quoted(name) +
-                                       " is not allowed; expected gauss-newton, sgd or "
-                                       "l3-nelder-mead");
-      })
+  std::vector<std::string> names;
+  for (const SolverChoice& choice : choices)
+    names.push_back(choice.name);
+  allow_names(app.add_option("--solver", arguments.solver,
+                             "only this one: gauss-newton, sgd or l3-nelder-mead [all, or the "
+                             "config's]"),
+              names)
       ->option_text("NAME")
       ->group(group);
-  app.add_option("--fits", arguments.fits,
-                 "about so many fits with each solver [22,525; 1,360 with the slow ones]")
-      ->check(CLI::Range(1, 1 << 24))
+  allow(app.add_option("--fits", arguments.fits,
+                       "about so many fits with each solver [22,525; 1,360 with the slow ones]"),
+        whole_number(1, 1 << 24))
       ->option_text("N")
       ->group(group);
   app.add_flag("--quick", arguments.quick, "a coarse grid: some seconds")->group(group);
-  app.add_option("--seed", arguments.seed, "seed of lobes and fits [fit.seed]")
-      ->check(CLI::NonNegativeNumber)
+  allow(app.add_option("--seed", arguments.seed, "seed of lobes and fits [fit.seed]"),
+        seed_number())
       ->option_text("N")
       ->group(group);
 }
 
 void add_output_options(CLI::App& app, Arguments& arguments) {
-  constexpr const char* group = "Where to write";
-  app.add_option("--json", arguments.json, "all counts as JSON [none]")
-      ->option_text("FILE")
-      ->group(group);
-  app.add_option("--csv", arguments.csv, "every fit as a line [none]")
-      ->option_text("FILE")
-      ->group(group);
-  app.add_option("--map", arguments.map,
-                 "folder for two pictures a solver: success, and loss, over the lobes [none]")
-      ->option_text("DIR")
+  constexpr const char* group = "What to write";
+  add_json_option(app, arguments.json)->group(group);
+  add_output_option(app, "--csv", arguments.csv, "every fit as a line")->group(group);
+  add_folder_option(app, "--map", arguments.map,
+                    "folder for two pictures a solver: success, and loss, over the lobes")
       ->group(group);
 }
 
@@ -278,7 +280,7 @@ Action declare_stress(CLI::App& app) {
   add_what_options(app, *arguments);
   add_threads_option(app, arguments->threads);
   add_output_options(app, *arguments);
-  return [arguments] { stress(*arguments); };
+  return [arguments](Files& files) { stress(*arguments, files); };
 }
 
 }  // namespace ltc::cli

@@ -11,8 +11,6 @@
 namespace ltc::cli {
 namespace {
 
-constexpr std::size_t worst_count = 5;
-
 std::string time_text(const RunReport& report) {
   std::string stages;
   for (const auto& [stage, seconds] : report.generate.stage_seconds)

@@ -27,6 +27,9 @@ struct RunReport {
   std::string stored_command;  // what the file holds; empty where that is the fit
 };
 
+inline constexpr std::size_t worst_count = 5;  // entries that are named
+
 std::string summary_text(const Table& table, const RunReport& report);
+std::string summary_json(const Table& table, const RunReport& report);
 
 }  // namespace ltc::cli

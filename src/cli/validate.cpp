@@ -27,25 +27,27 @@ struct Arguments {
   int threads = default_threads();
 };
 
+constexpr const char* page_name = "index.html";
+
 // DIR/index.html, or nothing.
 std::filesystem::path page_of(const Arguments& arguments) {
   return arguments.report.empty() ? std::filesystem::path()
-                                  : std::filesystem::path(arguments.report) / "index.html";
+                                  : std::filesystem::path(arguments.report) / page_name;
 }
 
 std::string written_text(const std::filesystem::path& page) {
   return page.empty() ? "" : "\nwrote " + page.string() + "\n";
 }
 
-void validate(const Arguments& arguments) {
+void validate(const Arguments& arguments, Files& files) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
+  if (!arguments.report.empty())
+    files.write("--report", files.make_folder(arguments.report) / page_name);
   Validation report{arguments.table, read_table(arguments.table), {}, std::nullopt, {}};
   const ValidateSettings settings = load_validate_settings(
       arguments.config.path(), arguments.config.overrides,
       is_refined(report.table) ? settings_for_refined_tables() : ValidateSettings{});
-  const std::optional<OutputFolder> json_folder = folder_of_file(arguments.json);
-  const std::optional<OutputFolder> page_folder = folder_of_file(page_of(arguments));
   report.invariants = check_invariants(report.table, settings.invariants, arguments.threads,
                                        &progress, contents_of(arguments.table));
   if (!arguments.no_quality) {
@@ -58,9 +60,9 @@ void validate(const Arguments& arguments) {
   progress.throw_if_stopped();
   if (!page.empty())
     write_file(page_of(arguments), page);
-  if (!arguments.json.empty())
-    write_file(arguments.json, report_json(report));
-  print(report_text(report) + written_text(page_of(arguments)));
+  print_results(
+      arguments.json, [&] { return report_text(report) + written_text(page_of(arguments)); },
+      [&] { return report_json(report); });
   if (const std::string failure = failure_text(report); !failure.empty())
     throw CheckFailure(failure);
 }
@@ -69,28 +71,23 @@ void validate(const Arguments& arguments) {
 
 Action declare_validate(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
-  app.add_option("TABLE", arguments->table, "table to check, .h5, .npy or .0.exr")
-      ->required()
-      ->option_text(" ");
+  add_table_argument(app, "TABLE", arguments->table, "table to check");
   add_config_options(app, arguments->config,
                      {"TOML file that says which limits differ from the defaults, those of "
                       "config/validate.toml or, "
                       "for a refined table, config/validate-refined.toml [none]",
                       "invariants.condition_number=1e5", "What to demand"});
-  app.add_option("--json", arguments->json, "write all that was found to this file [none]")
-      ->option_text("FILE")
-      ->group("What to write");
+  add_json_option(app, arguments->json)->group("What to write");
   CLI::Option* const page =
-      app.add_option("--report", arguments->report,
-                     "write a page with all figures and pictures, DIR/index.html [none]")
-          ->option_text("DIR")
+      add_folder_option(app, "--report", arguments->report,
+                        "folder for a page with all figures and pictures, DIR/index.html")
           ->group("What to write");
   app.add_flag("--no-quality", arguments->no_quality,
                "check the invariants alone, which takes seconds")
       ->excludes(page)
       ->group("What to demand");
   add_threads_option(app, arguments->threads);
-  return [arguments] { validate(*arguments); };
+  return [arguments](Files& files) { validate(*arguments, files); };
 }
 
 }  // namespace ltc::cli

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -15,8 +16,11 @@
 
 #include "config/draft.h"
 #include "config/value.h"
+#include "core/range.h"
 
 namespace ltc::config {
+
+using ltc::above, ltc::below, ltc::Range;
 
 // A key of the files that Settings are read from.
 template <typename Settings>
@@ -42,34 +46,13 @@ using MemberType = std::remove_pointer_t<std::invoke_result_t<Member, SettingsTy
 template <typename Member>
 using KeyFor = KeyOf<SettingsType<Member>>;
 
-// The numbers allowed: [least, most], without `least` itself if `above_least`, likewise
-// `below_most`.
-struct Range {
-  double least, most;
-  bool above_least = false, below_most = false;
-
-  bool contains(double value) const {  // false for NaN
-    return (above_least ? value > least : value >= least) &&
-           (below_most ? value < most : value <= most);
-  }
-  std::string text() const {
-    return fmt::format("{}{}, {}{}", above_least ? '(' : '[', least, most, below_most ? ')' : ']');
-  }
-};
-inline constexpr Range above(double least, double most) {
-  return {least, most, true, false};
-}
-inline constexpr Range below(double least, double most) {
-  return {least, most, false, true};
-}
-
 template <typename T, typename Member, typename Settings>
 T get_member(Member member, const Settings& settings) {
   // Read only: `member` takes Settings& to serve both ways.
   return *member(const_cast<Settings&>(settings));
 }
 
-// A number: floating-point members take whole numbers too, integers take nothing else.
+// A number: floating-point members take whole numbers too, integers also those in the form 1e6.
 template <typename Member>
 KeyFor<Member> key(std::string name, Member member, Range range, std::string summary) {
   using T = MemberType<Member>;
@@ -81,7 +64,7 @@ KeyFor<Member> key(std::string name, Member member, Range range, std::string sum
           [=](SettingsType<Member>& settings, const Value& value) {
             const auto* integer = std::get_if<std::int64_t>(&value);
             const auto* real = std::get_if<double>(&value);
-            if (!integer && (whole || !real))
+            if (!integer && (!real || (whole && *real != std::trunc(*real))))
               return false;
             if (!range.contains(integer ? static_cast<double>(*integer) : *real))
               return false;

@@ -3,6 +3,7 @@
 #include "core/platform.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
@@ -12,14 +13,17 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <memory>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -74,10 +78,47 @@ bool is_temporary_of(const fs::path& path, std::string_view name) {
 }
 
 void (*interrupt_handler)() = nullptr;
+std::atomic<bool> was_interrupted{false};
 
 extern "C" void handle_signal(int) {
+  was_interrupted = true;
   if (interrupt_handler)
     interrupt_handler();
+}
+
+// A device or a pipe would be replaced by a file, which is never what is meant.
+void require_replaceable(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_type kind = fs::status(path, ignored).type();
+  const auto refuse = [&](std::string_view reason) {
+    throw IoError(fmt::format("cannot write {}: {}", path.string(), reason));
+  };
+  if (kind == fs::file_type::character || kind == fs::file_type::block ||
+      kind == fs::file_type::fifo || kind == fs::file_type::socket)
+    refuse("it is a device or a pipe; expected the name of a file");
+  if (kind == fs::file_type::directory)
+    refuse("it is a folder; expected the name of a file");
+}
+
+// Makes an empty temporary file for `path` and removes it again; the error, or 0.
+int try_to_create(const fs::path& path) {
+  const fs::path probe = temporary_beside(path);
+  const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (descriptor < 0)
+    return errno;
+  ::close(descriptor);
+  ::unlink(probe.c_str());
+  return 0;
+}
+
+// Waits until there is something to read. In turns: an interrupt that came just before the wait
+// would not end it.
+void wait_for_input(int descriptor) {
+  constexpr int turn_milliseconds = 50;
+  pollfd waited{descriptor, POLLIN, 0};
+  while (::poll(&waited, 1, turn_milliseconds) <= 0)
+    if (was_interrupted)
+      throw Interrupted();
 }
 
 void limit(decltype(RLIMIT_CPU) resource, rlim_t most) {
@@ -174,13 +215,7 @@ FileSet::~FileSet() {
 }
 
 void FileSet::add(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  std::error_code ignored;
-  const fs::file_type kind = fs::status(path, ignored).type();
-  // A device or a pipe would be replaced by a file, which is never what is meant.
-  if (kind == fs::file_type::character || kind == fs::file_type::block ||
-      kind == fs::file_type::fifo || kind == fs::file_type::socket)
-    throw IoError(fmt::format(
-        "cannot write {}: it is a device or a pipe; expected the name of a file", path.string()));
+  require_replaceable(path);
   const File file{temporary_beside(path), path};
   try {
     write(file.temporary);
@@ -232,8 +267,17 @@ FolderLock::~FolderLock() {
   ::close(descriptor_);
 }
 
-void report_file_size_limit_as_error() {
+void report_failed_writes_as_errors() {
   ::signal(SIGXFSZ, SIG_IGN);
+  ::signal(SIGPIPE, SIG_IGN);
+}
+
+void occupy_closed_standard_streams() {
+  // The wrong way round, so that reading and writing them still fail.
+  for (const auto& [descriptor, flags] :
+       {std::pair{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})
+    if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
+      ::open("/dev/null", flags);  // gets the lowest number that is free, which is this one
 }
 
 void require_writable_folder(const fs::path& folder) {
@@ -245,12 +289,43 @@ void require_writable_folder(const fs::path& folder) {
     throw IoError(
         fmt::format("cannot create output folder {}: {}", folder.string(), error.message()));
   remove_abandoned_temporaries(folder / "probe");
-  const fs::path probe = temporary_beside(folder / "probe");
-  const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (const int refused = try_to_create(folder / "probe"))
+    throw_io("cannot write into output folder", folder, refused);
+}
+
+void require_writable_file(const fs::path& path) {
+  require_replaceable(path);
+  std::error_code ignored;
+  if (const fs::path folder = folder_of(path); !fs::is_directory(folder, ignored))
+    throw IoError(
+        fmt::format("cannot write {}: there is no folder {}", path.string(), folder.string()));
+  if (const int refused = try_to_create(path))
+    throw_io("cannot write", path, refused);
+}
+
+std::string read_up_to(const fs::path& path, std::size_t most_bytes) {
+  const auto fail = [] { throw std::system_error(errno, std::generic_category()); };
+  // O_NONBLOCK: opening a pipe that nobody writes to must not wait where no interrupt ends it.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0)
-    throw_io("cannot write into output folder", folder, errno);
-  ::close(descriptor);
-  ::unlink(probe.c_str());
+    fail();
+  const std::unique_ptr<const int, void (*)(const int*)> closed_at_end(
+      &descriptor, [](const int* open) { ::close(*open); });
+  // In pieces: most files are far smaller than the most that is allowed.
+  constexpr std::size_t piece_bytes = 1 << 20;
+  std::string content;
+  while (content.size() < most_bytes) {
+    wait_for_input(descriptor);
+    const std::size_t begin = content.size();
+    content.resize(begin + std::min(piece_bytes, most_bytes - begin));
+    const ssize_t got = ::read(descriptor, content.data() + begin, content.size() - begin);
+    if (got < 0 && errno != EAGAIN && errno != EINTR)
+      fail();
+    content.resize(begin + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    if (got == 0)
+      break;
+  }
+  return content;
 }
 
 void on_interrupt(void (*handler)()) {
@@ -259,8 +334,12 @@ void on_interrupt(void (*handler)()) {
   action.sa_handler = handle_signal;
   // SA_RESETHAND: a second signal finds the default action, for the impatient.
   action.sa_flags = SA_RESETHAND | SA_RESTART;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN)  // by nohup, or a shell that works in the background
+      ::sigaction(signal, &action, nullptr);
+  }
 }
 
 bool standard_error_is_terminal() {
@@ -269,8 +348,9 @@ bool standard_error_is_terminal() {
 
 std::size_t terminal_columns() {
   winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-    return size.ws_col;
+  for (const int descriptor : {STDERR_FILENO, STDOUT_FILENO})
+    if (::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+      return size.ws_col;
   return 80;
 }
 

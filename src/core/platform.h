@@ -24,8 +24,8 @@ class FileSet {
 
   // Calls `write` with the name of a temporary file in the same folder as `path` and flushes what
   // it wrote to the disk. Throws IoError on what the system refuses and for a `path` that is a
-  // device or a pipe; lets `write`'s own exceptions
-  // through; the temporary file is then gone.
+  // device, a pipe or a folder; lets `write`'s own
+  // exceptions through; the temporary file is then gone.
   void add(const std::filesystem::path& path,
            const std::function<void(const std::filesystem::path&)>& write);
 
@@ -59,16 +59,29 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-// From now on, writing beyond the size that the user allows for files (ulimit -f) is an error of
-// the write, and no longer ends the process.
-void report_file_size_limit_as_error();
+// From now on, writing beyond the size that the user allows for files (ulimit -f), or to a reader
+// that has gone, is an error of the write, and no longer ends the process.
+void report_failed_writes_as_errors();
+
+// Standard streams that the process was started without are taken, so that no file that is opened
+// later gets their place and with it what is meant for them. They cannot be read or written still.
+void occupy_closed_standard_streams();
 
 // Creates the folder and its parents if need be and proves that a file can be created in it.
 // Throws IoError naming the folder and the reason.
 void require_writable_folder(const std::filesystem::path& folder);
 
-// From now on an interrupt (Ctrl-C, SIGTERM) calls `handler`, which may only touch lock-free
-// atomics; a second one ends the process as it would have without the handler.
+// Proves that `path` can be written by FileSet::add: that its folder is there and takes a file of
+// such a name. Throws IoError naming the path and the reason.
+void require_writable_file(const std::filesystem::path& path);
+
+// The first min(size, most_bytes) bytes of a file or a pipe. Throws std::system_error on what the
+// system refuses, and Interrupted where an interrupt comes during the wait for a pipe's writer.
+std::string read_up_to(const std::filesystem::path& path, std::size_t most_bytes);
+
+// From now on an interrupt (Ctrl-C, SIGTERM, a terminal that closes) calls `handler`, which may
+// only touch lock-free atomics; a second one ends the process as it would have without the handler.
+// What this process was started to ignore stays ignored.
 void on_interrupt(void (*handler)());
 
 // What a piece of work may use up.
@@ -85,8 +98,9 @@ struct WorkLimits {
 std::optional<std::string> in_a_process_apart(const std::function<std::string()>& work,
                                               const WorkLimits& limits);
 
-// Whether standard error is a terminal, and how many columns it has (80 where it does not say).
 bool standard_error_is_terminal();
+
+// Of standard error or, where that is no terminal, of standard output; 80 where neither is one.
 std::size_t terminal_columns();
 
 // The largest resident size this process has had, in bytes; 0 where the system does not say.

@@ -4,48 +4,46 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <memory>
+#include <system_error>
 
 #include "core/error.h"
+#include "core/platform.h"
 
 namespace ltc {
 
-std::string read_first_bytes(const std::filesystem::path& file, std::string_view kind,
-                             std::size_t most_bytes) {
+namespace {
+
+std::string read_pieces(const std::filesystem::path& file, std::string_view kind,
+                        std::size_t most_bytes, bool again) {
   const auto refuse = [&](std::string_view reason) {
     throw IoError(fmt::format("cannot read {} {}: {}", kind, file.string(), reason));
   };
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
+  const std::filesystem::file_type type = std::filesystem::status(file, ignored).type();
+  if (type == std::filesystem::file_type::directory)
     refuse("it is a folder; expected a file");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(
-      std::fopen(file.string().c_str(), "rb"), &std::fclose);
-  if (!stream)
-    refuse(std::strerror(errno));
-  // In pieces: most files are far smaller than the most that is allowed.
-  constexpr std::size_t piece_bytes = 1 << 20;
+  if (again && type == std::filesystem::file_type::fifo)
+    refuse("it is a pipe, which can be read only once; expected a file");
   std::string content;
-  while (content.size() < most_bytes) {
-    const std::size_t begin = content.size();
-    const std::size_t wanted = std::min(piece_bytes, most_bytes - begin);
-    content.resize(begin + wanted);
-    const std::size_t got = std::fread(content.data() + begin, 1, wanted, stream.get());
-    content.resize(begin + got);
-    if (std::ferror(stream.get()))
-      refuse(std::strerror(errno));
-    if (got < wanted)
-      break;
+  try {
+    content = platform::read_up_to(file, most_bytes);
+  } catch (const std::system_error& error) {
+    refuse(std::strerror(error.code().value()));
   }
   return content;
 }
 
+}  // namespace
+
+std::string read_first_bytes(const std::filesystem::path& file, std::string_view kind,
+                             std::size_t most_bytes) {
+  return read_pieces(file, kind, most_bytes, true);
+}
+
 std::string read_whole_file(const std::filesystem::path& file, std::string_view kind,
                             std::size_t most_bytes) {
-  std::string content = read_first_bytes(file, kind, most_bytes + 1);
+  std::string content = read_pieces(file, kind, most_bytes + 1, false);
   if (content.size() > most_bytes)
     throw InputError(
         fmt::format("{}: larger than {} bytes, which no {} is", file.string(), most_bytes, kind));

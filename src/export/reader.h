@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "table/table.h"
 
@@ -12,6 +13,9 @@ namespace ltc {
 // By suffix: .h5, .npy, or one of the three textures <name>.0.exr to <name>.2.exr, which brings in
 // the other two. Throws InputError for another suffix, and as the format's own reader.
 Table read_table(const std::filesystem::path& path);
+
+// All files that read_table reads for this one: the three textures, or the file alone.
+std::vector<std::filesystem::path> files_of_table(const std::filesystem::path& path);
 
 // What a file of such a name holds beside axes and matrices.
 struct TableContents {

@@ -94,7 +94,8 @@ TEST(Bench, RefusesBadInputInOneLine) {
 TEST(Bench, RefusesFilesThatItCannotWriteBeforeItMeasures) {
   expect_refused(bench({"--json", "none/b.json"}), 3, {"none/b.json", "no folder"});
   expect_refused(bench({"--picture", "."}), 3, {"folder"});
-  expect_refused(bench({"--json", "b", "--csv", "./b"}), 2, {"two outputs"});
+  expect_refused(bench({"--json", "b", "--csv", "./b"}), 2,
+                 {"--csv ./b is the same file as --json b"});
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ TEST(DiffTolerance, TwoRunsOfOneConfigDifferByNothing) {
   const std::string command = other.out.substr(begin, other.out.find('\n', begin) - begin);
   const std::string entry = command.substr(command.rfind(' ') + 1);
   const ProgramResult fit =
-      run_ltcfit({"fit", "--config", "one/ltc.h5", "--entry", entry, "--json"}, folder.path());
+      run_ltcfit({"fit", "--config", "one/ltc.h5", "--entry", entry, "--json", "-"}, folder.path());
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
   const Table table = read_table(folder / "one/ltc.h5");
   NodeIndex node;
@@ -259,7 +259,7 @@ TEST(DiffBadInput, IsRefusedInOneLineAndWritesNothing) {
                    {"--tolerance", "expected a number, 0 or more"});
   expect_refused(diff(a, a, {"--json", tables.path().string()}), 3, {"is a folder"});
   expect_refused(diff(a, a, {"--map", tables.path().string()}), 3, {"is a folder"});
-  expect_refused({"diff", a.string()}, 2, {"B", "required"});
+  expect_refused({"diff", a.string()}, 2, {"B is missing"});
 }
 
 }  // namespace

@@ -144,9 +144,9 @@ TEST(Diff, TheJsonHasTheReport) {
   write_hdf5(example(), folder / "good.h5");
   write_hdf5(damaged_example(), folder / "bad.h5");
   const ProgramResult result =
-      run_ltcfit(diff("bad.h5", "good.h5", {"--json", "new/all.json"}), folder.path());
+      run_ltcfit(diff("bad.h5", "good.h5", {"--json", "all.json"}), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const Json json = Json::parse(read_file(folder / "new/all.json"));
+  const Json json = Json::parse(read_file(folder / "all.json"));
   EXPECT_EQ(json["a"], "bad.h5");
   EXPECT_EQ(json["shape"], (std::vector<int>{3, 2, 5, 4}));
   EXPECT_EQ(json["compared"], 120);

@@ -49,7 +49,7 @@ class FitAsIn : public ::testing::Test {
   static fs::path file(std::string_view name) { return *folder_ / name; }
 
   static Json shown(const fs::path& table, std::vector<std::string> which) {
-    which.insert(which.begin(), {"fit", "--as-in", table.string(), "--json"});
+    which.insert(which.begin(), {"fit", "--as-in", table.string(), "--json", "-"});
     const ProgramResult result = run_ltcfit(which, folder_->path());
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return Json::parse(result.out);
@@ -129,7 +129,7 @@ TEST_F(FitAsIn, TellsItAsTextAndDrawsIt) {
   const TemporaryDirectory folder;
   for (const auto& which : {entry, lobe}) {
     std::vector<std::string> arguments = {"fit", "--as-in", file("whole/ltc.h5").string(), "--plot",
-                                          "new/lobe.png"};
+                                          "lobe.png"};
     arguments.insert(arguments.end(), which.begin(), which.end());
     const ProgramResult result = run_ltcfit(arguments, folder.path());
     ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -143,7 +143,7 @@ TEST_F(FitAsIn, TellsItAsTextAndDrawsIt) {
                                              : "\nlook-up  of 8 entries"),
               std::string::npos)
         << result.out;
-    EXPECT_TRUE(read_file(folder / "new/lobe.png").starts_with("\x89PNG"));
+    EXPECT_TRUE(read_file(folder / "lobe.png").starts_with("\x89PNG"));
   }
 }
 
@@ -183,8 +183,8 @@ TEST_F(FitAsIn, TheConfigOfAScenesTableReproducesItsEntries) {
     const NodeIndex node = table.grid.node(flat);
     const std::string text = std::to_string(node.alpha) + "," + std::to_string(node.lambda) + "," +
                              std::to_string(node.theta) + "," + std::to_string(node.phi);
-    const ProgramResult result =
-        run_ltcfit({"fit", "--config", file("part/ltc.h5").string(), "--entry", text, "--json"});
+    const ProgramResult result = run_ltcfit(
+        {"fit", "--config", file("part/ltc.h5").string(), "--entry", text, "--json", "-"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const Json json = Json::parse(result.out);
     for (std::size_t i = 0; i < 9; ++i)
@@ -206,7 +206,7 @@ TEST_F(FitAsIn, RefusesInOneLine) {
     expect_refused(arguments, exit_code, parts);
   };
   refused({"--as-in", "none.h5", "--entry", "0,0,0,0"}, 3, {"none.h5", "No such file"});
-  refused({"--as-in", "", "--entry", "0,0,0,0"}, 2, {"--as-in", "is empty"});
+  refused({"--as-in", "", "--entry", "0,0,0,0"}, 2, {"--as-in ''", "expected a file"});
   refused({"--as-in", folder_->path().string(), "--entry", "0,0,0,0"}, 2, {".h5", ".npy"});
   const std::string bytes = read_file(whole);
   const TemporaryDirectory damaged;

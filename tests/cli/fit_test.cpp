@@ -66,7 +66,7 @@ TEST(Fit, TellsAllOfALobe) {
 }
 
 TEST(Fit, JsonHasTheNumbers) {
-  const Json json = json_of(fit_lobe({"--json"}));
+  const Json json = json_of(fit_lobe({"--json", "-"}));
   EXPECT_EQ(json["lobe"]["alpha_x"], 0.4);
   // Degrees to radians and back: a few units in the last place.
   EXPECT_NEAR(json["lobe"]["theta_degrees"].get<double>(), 50, 1e-12);
@@ -81,29 +81,29 @@ TEST(Fit, JsonHasTheNumbers) {
 }
 
 TEST(Fit, SolverSeedSamplesAndStart) {
-  const Json gauss_newton = json_of(fit_lobe({"--json", "--samples", "512", "--seed", "5"}));
+  const Json gauss_newton = json_of(fit_lobe({"--json", "-", "--samples", "512", "--seed", "5"}));
   EXPECT_EQ(gauss_newton["solver"], "gauss-newton");
   EXPECT_EQ(gauss_newton["seed"], 5);
-  const Json sgd = json_of(fit_lobe({"--json", "--solver", "sgd", "--samples", "64", "--start",
+  const Json sgd = json_of(fit_lobe({"--json", "-", "--solver", "sgd", "--samples", "64", "--start",
                                      "first-order", "--set", "fit.sgd.steps=20"}));
   EXPECT_EQ(sgd["solver"], "sgd");
   EXPECT_EQ(sgd["steps"].size(), 20u);
   EXPECT_EQ(sgd["start"], "first-order");
-  const Json simplex = json_of(fit_lobe({"--json", "--solver", "l3-nelder-mead", "--samples", "64",
-                                         "--set", "fit.l3.evaluations=50"}));
+  const Json simplex = json_of(fit_lobe({"--json", "-", "--solver", "l3-nelder-mead", "--samples",
+                                         "64", "--set", "fit.l3.evaluations=50"}));
   EXPECT_EQ(simplex["solver"], "l3-nelder-mead");
   EXPECT_EQ(simplex["start"], "first-order");
   for (const Json& step : simplex["steps"])
     EXPECT_EQ(step["phase"], "simplex");
   for (const char* start : {"moments", "identity", "random"})
-    EXPECT_EQ(json_of(fit_lobe({"--json", "--start", start}))["steps"][0]["phase"],
+    EXPECT_EQ(json_of(fit_lobe({"--json", "-", "--start", start}))["steps"][0]["phase"],
               std::string("coarse ") + start);
 }
 
 TEST(Fit, TraceHasALineAStep) {
   const TemporaryDirectory folder;
-  const std::string path = (folder / "new/trace.csv").string();
-  const Json json = json_of(fit_lobe({"--json", "--trace", path}));
+  const std::string path = (folder / "trace.csv").string();
+  const Json json = json_of(fit_lobe({"--json", "-", "--trace", path}));
   std::istringstream trace(read_file(path));
   std::string line;
   std::getline(trace, line);
@@ -166,7 +166,7 @@ void expect_commands_reproduce(const std::vector<std::string>& generate, std::si
                      &index[3]),
               4);
     const std::size_t flat = table.grid.flat({index[0], index[1], index[2], index[3]});
-    command.push_back("--json");
+    command.insert(command.end(), {"--json", "-"});
     const Json json = json_of(command);
     for (std::size_t i = 0; i < 9; ++i)
       EXPECT_EQ(json["matrix"]["stored"][i / 3][i % 3].get<double>(),
@@ -200,8 +200,9 @@ TEST(Fit, StartsFromATable) {
   const std::vector<std::string> small = {
       "--set", "table.alpha.nodes=2", "--set", "table.lambda.nodes=2",
       "--set", "table.theta.nodes=2", "--set", "table.phi.nodes=2"};
-  std::vector<std::string> generate = {"generate"}, fit = {"fit",    "--entry", "1,0,1,1",
-                                                           "--json", "--start", "from=out/ltc.h5"};
+  std::vector<std::string> generate = {"generate"},
+                           fit = {"fit", "--entry", "1,0,1,1",        "--json",
+                                  "-",   "--start", "from=out/ltc.h5"};
   generate.insert(generate.end(), small.begin(), small.end());
   fit.insert(fit.end(), small.begin(), small.end());
   ASSERT_EQ(run_ltcfit(generate, folder.path()).exit_code, 0);
@@ -294,7 +295,8 @@ TEST(FitBadInput, HowToFit) {
     expect_refused(more, exit_code, parts);
   };
   refuse({"--solver", "newton"}, 2, {"newton", "gauss-newton", "sgd"});
-  refuse({"--seed", "-3"}, 2, {"fit.seed", "-3"});
+  refuse({"--seed", "-3"}, 2, {"--seed -3: expected a whole number in [0, 9007199254740992]"});
+  refuse({"--seed", "abc"}, 2, {"--seed abc: expected a whole number in [0, 9007199254740992]"});
   refuse({"--samples", "3"}, 2, {"fit.gauss_newton.samples", "3", "[64, 65536]"});
   refuse({"--samples", "3", "--solver", "l3-nelder-mead"}, 2, {"fit.l3.samples", "[16, 65536]"});
   refuse({"--samples", "3", "--solver", "sgd"}, 2, {"fit.sgd.samples", "[16, 1048576]"});

@@ -164,7 +164,7 @@ std::vector<std::string> endless(const std::string& output) {
 
 // Without a way to stop, the fit would go on for hours.
 TEST(GenerateInterrupt, EndsSoonAndLeavesNothing) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryDirectory folder;
     RunningProgram program(endless("a/b"), folder.path());
     ASSERT_TRUE(program.wait_for_error_text("fit: ", patience));
@@ -173,8 +173,25 @@ TEST(GenerateInterrupt, EndsSoonAndLeavesNothing) {
     EXPECT_EQ(result.exit_code, 130);
     EXPECT_EQ(result.out, "");
     EXPECT_TRUE(result.err.ends_with("ltcfit: interrupted; nothing was written\n")) << result.err;
+    EXPECT_NE(result.err.find("\nfit: stopped after "), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("done"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("\nfit: stopped after "), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("done"), std::string::npos) << result.err;
     EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{});
   }
+}
+
+// As nohup starts it: the terminal's end is not its own.
+TEST(GenerateInterrupt, IgnoresWhatItWasStartedToIgnore) {
+  const TemporaryDirectory folder;
+  const std::vector<std::string> command = endless("a");
+  std::vector<std::string> ignoring = {"sh", "-c", "trap '' HUP; exec \"$@\"", "sh"};
+  ignoring.insert(ignoring.end(), command.begin(), command.end());
+  RunningProgram program(ignoring, folder.path());
+  ASSERT_TRUE(program.wait_for_error_text("fit: ", patience));
+  program.send_signal(SIGHUP);
+  program.send_signal(SIGTERM);  // the one that ends it
+  EXPECT_EQ(program.wait(patience).exit_code, 130);
 }
 
 TEST(GenerateInterrupt, KeepsAnOlderTable) {

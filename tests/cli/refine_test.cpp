@@ -76,7 +76,7 @@ TEST(RefineProgram, BettersWhatLiesBetweenTheNodes) {
 // The matrix that a printed command shows as stored.
 Eigen::Matrix3d shown_by(const std::string& command, const TemporaryDirectory& folder) {
   const ProgramResult fit =
-      run_program({"sh", "-c", std::string(LTCFIT_PROGRAM).append(command, 6).append(" --json")},
+      run_program({"sh", "-c", std::string(LTCFIT_PROGRAM).append(command, 6).append(" --json -")},
                   folder.path());
   EXPECT_EQ(fit.exit_code, 0) << command << fit.err;
   const auto rows = nlohmann::json::parse(fit.out)["matrix"]["stored"];

@@ -168,7 +168,7 @@ TEST_F(Render, RefusesBadInputInOneLineAndWritesNothing) {
   expect_refusal({"t.h5", "--alpha-x", "0.5"}, 2, {"--alpha-x", "--alpha-y"});
   expect_refusal({"t.h5", "--alpha-x", "0.5", "--alpha-y", "1.5"}, 2, {"--alpha-y", "1.5"});
   expect_refusal({"t.h5", "--f0", "nan"}, 2, {"nan"});
-  expect_refusal({"t.h5", "--output", ""}, 2, {"--output", "empty"});
+  expect_refusal({"t.h5", "--output", ""}, 2, {"--output ''", "expected a folder"});
   expect_refusal({"t.h5", "-o", "x.bmp"}, 2, {"--output", "x.bmp", ".png"});
   expect_refusal({"t.h5", "--threads", "0"}, 2, {"--threads", "0"});
 }

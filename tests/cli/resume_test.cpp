@@ -184,5 +184,28 @@ TEST(CheckpointFaults, Seconds) {
                    {"--checkpoint-seconds", seconds, "[0, 86400]"});
 }
 
+// As nohup starts it: the end of the terminal is not its own.
+TEST(Interrupt, ThatTheProgramWasStartedToIgnoreIsIgnored) {
+  const TemporaryDirectory folder;
+  RunningProgram program(Arguments{"sh", "-c", "trap '' HUP; exec \"$@\"", "sh"} +
+                             command(generate(stochastic, ".", "0")),
+                         folder.path());
+  ASSERT_TRUE(program.wait_for_error_text("fit: ", limit));
+  program.send_signal(SIGHUP);
+  EXPECT_EQ(program.wait(limit).exit_code, 0);
+}
+
+// The terminal closes: the same as Ctrl-C.
+TEST(Interrupt, ByHangUpUpdatesTheCheckpoint) {
+  const TemporaryDirectory folder;
+  RunningProgram program(command(generate(stochastic + Arguments{"--set", "fit.sgd.steps=2000"})),
+                         folder.path());
+  ASSERT_TRUE(wait_for_new_checkpoint(program, folder / checkpoint, ""));
+  program.send_signal(SIGHUP);
+  const ProgramResult result = program.wait(limit);
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_TRUE(result.err.ends_with("--resume goes on from ./ltc.checkpoint.h5\n")) << result.err;
+}
+
 }  // namespace
 }  // namespace ltc::test

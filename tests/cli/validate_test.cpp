@@ -68,13 +68,13 @@ std::set<std::string> failed_names(const Json& report) {
 TEST_F(Validate, PassesAGoodTable) {
   const TemporaryDirectory folder;
   const ProgramResult result = run_ltcfit(
-      {"validate", "--no-quality", good().string(), "--json", "new/report.json"}, folder.path());
+      {"validate", "--no-quality", good().string(), "--json", "report.json"}, folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(result.out.find("FAILED"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find(good().string() + ": 4x4x4x4 entries, storage matrix, 0 skipped\n"),
             std::string::npos)
       << result.out;
-  const Json report = Json::parse(read_file(folder / "new/report.json"));
+  const Json report = Json::parse(read_file(folder / "report.json"));
   EXPECT_EQ(report["table"], good().string());
   EXPECT_EQ(report["passed"], true);
   EXPECT_EQ(report["invariants"].size(), 14u);
@@ -103,8 +103,8 @@ TEST_F(Validate, TheCommandsOfAnEntryShowWhatIsStoredAndWhatWasFitted) {
     const std::size_t begin = result.out.find("ltcfit fit ", line);
     const std::string command = result.out.substr(begin, result.out.find('\n', begin) - begin);
     EXPECT_TRUE(command.ends_with("--entry 2,1,1,2")) << command;
-    const ProgramResult fit =
-        run_program({"sh", "-c", std::string(LTCFIT_PROGRAM).append(command, 6).append(" --json")});
+    const ProgramResult fit = run_program(
+        {"sh", "-c", std::string(LTCFIT_PROGRAM).append(command, 6).append(" --json -")});
     EXPECT_EQ(fit.exit_code, 0) << fit.err;
     return Json::parse(fit.out)["matrix"]["stored"];
   };
@@ -224,7 +224,7 @@ TEST_F(Validate, TakesATableOfAScene) {
 TEST_F(Validate, RefusesBadInputInOneLine) {
   const TemporaryDirectory folder;
   const std::string table = good().string();
-  expect_refused({"validate"}, 2, {"TABLE", "required"});
+  expect_refused({"validate"}, 2, {"TABLE is missing"});
   expect_refused({"validate", "none.h5"}, 3, {"none.h5", "No such file"});
   expect_refused({"validate", folder.write("t.txt", "x").string()}, 2, {"t.txt", ".h5", ".npy"});
   const std::string whole = read_file(good());
@@ -234,7 +234,7 @@ TEST_F(Validate, RefusesBadInputInOneLine) {
                  {"--set", "invariants.zeros", "did you mean invariants.zero?"});
   expect_refused({"validate", table, "--config", "none.toml"}, 3, {"none.toml"});
   expect_refused({"validate", table, "--json", folder.path().string()}, 3, {"is a folder"});
-  expect_refused({"validate", table, "--json", "/proc/none/r.json"}, 3, {"/proc/none"});
+  expect_refused({"validate", table, "--json", "/proc/none/r.json"}, 3, {"no folder /proc/none"});
   expect_refused({"validate", table, "--threads", "0"}, 2, {"--threads"});
 }
 

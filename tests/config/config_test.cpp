@@ -125,6 +125,8 @@ TEST(Config, OverridesTakeBareStringsAndWholeNumbersForReals) {
   EXPECT_EQ(load({"fit.solver=sgd"}).fit.solver, SolverKind::sgd);
   EXPECT_EQ(load({"fit.solver=\"sgd\""}).fit.solver, SolverKind::sgd);
   EXPECT_EQ(load({"fit.sgd.learning_rate=2"}).fit.sgd.learning_rate, 2.0);
+  EXPECT_EQ(load({"fit.sgd.steps=1e6"}).fit.sgd.steps, 1'000'000);
+  EXPECT_EQ(load({"fit.seed=9007199254740992.0"}).fit.seed, 9007199254740992u);
 }
 
 TEST(Config, UnknownKeysAreNamedWithTheNearest) {
@@ -136,6 +138,9 @@ TEST(Config, UnknownKeysAreNamedWithTheNearest) {
 }
 
 TEST(Config, WrongTypesAreRefused) {
+  expect_refused("fit.seed=inf", {"fit.seed = inf", "a whole number in [0, "});
+  expect_refused("fit.seed=nan", {"fit.seed = nan", "a whole number in [0, "});
+  expect_refused("fit.sgd.steps=1e8", {"fit.sgd.steps = 1", "[1, 10000000]"});
   expect_refused("fit.seed=1.5", {"fit.seed = 1.5", "a whole number in [0, "});
   expect_refused("fit.seed=many", {"fit.seed = \"many\"", "a whole number"});
   expect_refused("fit.seed=[1, 2]", {"fit.seed = an array", "a whole number"});
