@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ std::string usage_of(const CLI::Option& option) {
   return option.get_positional() ? name : fmt::format("{} {}", name, option.get_option_text());
 }
 
+bool looks_like_option(const std::string& word) {
+  return word.size() > 1 && word[0] == '-';
+}
+
 bool is_flag(const CLI::Option& option) {
   return option.get_items_expected_max() == 0;
 }
@@ -34,10 +39,13 @@ const CLI::Option* named_first(const CLI::App& app, const std::string& message) 
   return name.empty() ? nullptr : app.get_option_no_throw(name);
 }
 
+std::string no_value(const CLI::Option& option) {
+  return fmt::format("{} has no value; expected {}", option.get_name(), usage_of(option));
+}
+
 // The words that no option takes; one of them is the reason.
-std::string of_extra_words(const CLI::App& app, const std::vector<std::string>& words) {
-  const std::string& word = words.front();
-  if (word.size() < 2 || word[0] != '-')
+std::string of_extra_word(const CLI::App& app, const std::string& word) {
+  if (!looks_like_option(word))
     return fmt::format("unexpected word {}", shell_quoted(word)) + see_help(app);
   const std::string name = word.substr(0, word.find('='));
   std::vector<std::string> known;
@@ -52,8 +60,14 @@ std::string of_extra_words(const CLI::App& app, const std::vector<std::string>& 
 // What CLI11 found wrong, in the words of this program.
 std::string in_own_words(const CLI::ParseError& error, const CLI::App& app) {
   const std::string message = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error))
-    return of_extra_words(app, app.remaining());
+  std::vector<std::string> extra = app.remaining();
+  std::erase(extra, "--");
+  // A misspelt option first: its value may have been taken for something else.
+  const auto unknown = std::find_if(extra.begin(), extra.end(), looks_like_option);
+  if (unknown != extra.end())
+    return of_extra_word(app, *unknown);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) && !extra.empty())
+    return of_extra_word(app, extra.front());
   if (dynamic_cast<const CLI::ExcludesError*>(&error)) {
     constexpr std::string_view between = " excludes ";
     const std::size_t place = message.find(between);
@@ -65,25 +79,41 @@ std::string in_own_words(const CLI::ParseError& error, const CLI::App& app) {
     return message + see_help(app);
   if (dynamic_cast<const CLI::RequiredError*>(&error))
     return fmt::format("{} is missing{}", usage_of(*option), see_help(app));
-  if (is_flag(*option))
-    return fmt::format("{} takes no value{}", option->get_name(), see_help(app));
   if (option->count() > 1)
     return fmt::format("{} is given {} times; expected once", option->get_name(), option->count());
-  if (option->count() == 1)
-    return fmt::format("{} {}: not understood{}", option->get_name(),
-                       shell_quoted(option->results().front()), see_help(app));
-  return fmt::format("{} has no value; expected {}, or {}=VALUE where that begins with \"-\"",
-                     option->get_name(), usage_of(*option), option->get_name());
+  return no_value(*option);
+}
+
+// What CLI11 would take: a value for a flag, and the next option for a value that was forgotten.
+void refuse_misplaced_values(const CLI::App& app, std::span<const char* const> arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string word = arguments[i];
+    if (word == "--")
+      return;
+    if (!looks_like_option(word))
+      continue;
+    const std::size_t equals = word.find('=');
+    const CLI::Option* const option = app.get_option_no_throw(word.substr(0, equals));
+    if (!option)
+      continue;
+    if (is_flag(*option)) {
+      if (equals != std::string::npos)
+        throw InputError(fmt::format("{} takes no value{}", option->get_name(), see_help(app)));
+    } else if (equals == std::string::npos && i + 1 < arguments.size()) {
+      const std::string value = arguments[++i];
+      if (looks_like_option(value) && app.get_option_no_throw(value))
+        throw InputError(fmt::format("{}, or {}={}", no_value(*option), word, value));
+    }
+  }
 }
 
 }  // namespace
 
-Request read_arguments(CLI::App& app, int argument_count, const char* const* arguments) {
+Request read_arguments(CLI::App& app, std::span<const char* const> arguments) {
+  refuse_misplaced_values(app, arguments);
   try {
     // CLI11 takes them from the back.
-    std::vector<std::string> reversed(std::reverse_iterator(arguments + argument_count),
-                                      std::reverse_iterator(arguments));
-    app.parse(std::move(reversed));
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
     return Request::help;
   } catch (const CLI::CallForVersion&) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <span>
 
 #include "cli/files.h"
 
@@ -14,7 +15,7 @@ enum class Request { work, help, version };
 
 // Reads arguments into the options of `app`. Throws InputError of one line for what they do not
 // take.
-Request read_arguments(CLI::App& app, int argument_count, const char* const* arguments);
+Request read_arguments(CLI::App& app, std::span<const char* const> arguments);
 
 // The files that the options name which were given.
 void tell_files(const CLI::App& app, Files& files);

@@ -273,6 +273,8 @@ void fit(const Arguments& arguments, Files& files) {
   StopOnly progress;
   const StopOnInterrupt stop_on_interrupt(progress);
   require_one_name(arguments);
+  if (arguments.start == start_from)
+    throw InputError("--start from=: expected from= and a table's file");
   if (arguments.start.starts_with(start_from))
     files.read("--start", start_table(arguments.start));
   if (arguments.as_in.empty())

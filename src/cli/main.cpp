@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,8 @@ namespace ltc::cli {
 namespace {
 
 enum ExitCode { success = 0, failure = 1, bad_input = 2, io_failure = 3, interrupted = 130 };
+
+using Arguments = std::span<const char* const>;
 
 int report(ExitCode code, std::string_view message) {
   tell(fmt::format("ltcfit: {}\n", one_line(message)));
@@ -44,9 +47,9 @@ const Command& command_named(std::string_view name) {
 }
 
 // Without a command there is only help to ask for.
-void run_without_command(int argument_count, char** arguments) {
+void run_without_command(Arguments arguments) {
   const std::unique_ptr<CLI::App> app = program_options();
-  switch (read_arguments(*app, argument_count, arguments)) {
+  switch (read_arguments(*app, arguments)) {
     case Request::help:
       print(program_help(*app, platform::terminal_columns()));
       return;
@@ -58,9 +61,9 @@ void run_without_command(int argument_count, char** arguments) {
   }
 }
 
-void run_command(const Command& command, int argument_count, char** arguments) {
+void run_command(const Command& command, Arguments arguments) {
   const DeclaredCommand declaration = declared(command);
-  if (read_arguments(*declaration.app, argument_count, arguments) == Request::help) {
+  if (read_arguments(*declaration.app, arguments) == Request::help) {
     print(command_help(*declaration.app, platform::terminal_columns()));
     return;
   }
@@ -69,11 +72,11 @@ void run_command(const Command& command, int argument_count, char** arguments) {
   declaration.action(files);
 }
 
-void run(int argument_count, char** arguments) {
-  if (argument_count > 0 && arguments[0][0] != '-')
-    run_command(command_named(arguments[0]), argument_count - 1, arguments + 1);
+void run(Arguments arguments) {
+  if (!arguments.empty() && arguments[0][0] != '-')
+    run_command(command_named(arguments[0]), arguments.subspan(1));
   else
-    run_without_command(argument_count, arguments);
+    run_without_command(arguments);
 }
 
 }  // namespace
@@ -85,7 +88,8 @@ int main(int argument_count, char** arguments) {
   try {
     platform::occupy_closed_standard_streams();
     platform::report_failed_writes_as_errors();
-    run(std::max(argument_count - 1, 0), arguments + 1);  // without the program's own name
+    const auto count = static_cast<std::size_t>(std::max(argument_count, 1));
+    run({arguments + 1, count - 1});  // without the program's own name
     return success;
   } catch (const InputError& error) {
     return report(bad_input, error.what());

@@ -56,7 +56,8 @@ std::string one_line(std::string_view text) {
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   std::error_code ignored;
   fs::path missing = fs::absolute(path_);  // as written: "a/../b" creates a too
-  for (; missing.has_relative_path() && !fs::exists(missing, ignored);
+  // A link that leads nowhere is there too, and not ours to remove.
+  for (; missing.has_relative_path() && !fs::exists(fs::symlink_status(missing, ignored));
        missing = missing.parent_path())
     created_.insert(created_.begin(), missing);
   try {

@@ -12,6 +12,8 @@ namespace {
 
 using namespace runs;
 
+const Arguments unrefined = tiny + Arguments{"--set", "refine.steps=0"};
+
 // The program under a shell that redirects its streams.
 ProgramResult run_redirected(const Arguments& arguments, const std::string& redirection,
                              const TemporaryDirectory& folder) {
@@ -21,7 +23,7 @@ ProgramResult run_redirected(const Arguments& arguments, const std::string& redi
 
 // One of each command, made short, on a table T.h5.
 std::vector<Arguments> one_of_each() {
-  return {generate(tiny, "out"),
+  return {generate(unrefined, "out"),
           {"fit", "--entry", "1,1,1,1", "--samples", "64"},
           {"diff", "T.h5", "T.h5", "--samples", "64", "--directions", "1"},
           {"validate", "T.h5", "--no-quality"},
@@ -38,7 +40,7 @@ class Streams : public ::testing::Test {
  protected:
   void SetUp() override {
     const ProgramResult made =
-        run_ltcfit(generate(tiny + Arguments{"--set", "output.name=T"}), folder_.path());
+        run_ltcfit(generate(unrefined + Arguments{"--set", "output.name=T"}), folder_.path());
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }
   TemporaryDirectory folder_;
@@ -54,7 +56,7 @@ TEST_F(Streams, ProgressThatCannotBeWrittenIsDropped) {
       EXPECT_EQ(result.out.empty(), plain.out.empty()) << redirection;
     }
   }
-  EXPECT_EQ(read_hdf5(folder_ / "out/ltc.h5").matrix, read_hdf5(folder_ / "T.h5").matrix);
+  EXPECT_EQ(read_hdf5(folder_ / "out/ltc.h5").stored, read_hdf5(folder_ / "T.h5").stored);
 }
 
 TEST_F(Streams, ResultsThatCannotBeWrittenAreAnError) {
@@ -76,13 +78,13 @@ TEST_F(Streams, ResultsThatCannotBeWrittenAreAnError) {
       EXPECT_EQ(result.err.find("ltcfit: cannot write to standard output"), begin) << result.err;
     }
   // The table is there still.
-  EXPECT_EQ(read_hdf5(folder_ / "out/ltc.h5").matrix, read_hdf5(folder_ / "T.h5").matrix);
+  EXPECT_EQ(read_hdf5(folder_ / "out/ltc.h5").stored, read_hdf5(folder_ / "T.h5").stored);
 }
 
 TEST_F(Streams, BothClosedIsAnErrorThatNobodyReads) {
   for (const Arguments& arguments : one_of_each())
     EXPECT_EQ(run_redirected(arguments, "<&- >&- 2>&-", folder_).exit_code, 3) << arguments[0];
-  EXPECT_EQ(read_hdf5(folder_ / "out/ltc.h5").matrix, read_hdf5(folder_ / "T.h5").matrix);
+  EXPECT_EQ(read_hdf5(folder_ / "out/ltc.h5").stored, read_hdf5(folder_ / "T.h5").stored);
 }
 
 TEST_F(Streams, JsonTakesThePlaceOfTheTextOnStandardOutput) {
