@@ -131,9 +131,11 @@ std::optional<std::filesystem::path> ConfigArguments::path() const {
 
 Config ConfigArguments::load() const {
   const std::optional<std::filesystem::path> config = path();
-  if (config && config->extension() == ".h5")
-    return parse_config(read_hdf5(*config).config, *config, overrides);
-  return load_config(config, overrides);
+  if (!config)
+    return load_config(config, overrides);
+  if (!toml)
+    toml = config->extension() == ".h5" ? read_hdf5(*config).config : read_config(*config);
+  return parse_config(*toml, *config, overrides);
 }
 
 std::string ConfigArguments::as_text() const {

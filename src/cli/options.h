@@ -71,9 +71,11 @@ struct ConfigArguments {
   std::vector<std::string> overrides;
 
   std::optional<std::filesystem::path> path() const;
-  Config load() const;
+  Config load() const;  // reads the file once: it may be a pipe
   // " --config F --set key=value", as a shell reads it.
   std::string as_text() const;
+
+  mutable std::optional<std::string> toml = std::nullopt;  // what the file says, once it is read
 };
 
 // How the help describes them.

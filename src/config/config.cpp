@@ -71,6 +71,10 @@ Config load_config(const std::optional<std::filesystem::path>& file,
       overrides);
 }
 
+std::string read_config(const std::filesystem::path& file) {
+  return config::read_toml_text(file, "config");
+}
+
 Config parse_config(std::string_view text, const std::filesystem::path& source,
                     std::span<const std::string> overrides) {
   return config_from(

@@ -42,6 +42,9 @@ struct Config {
 Config load_config(const std::optional<std::filesystem::path>& file,
                    std::span<const std::string> overrides);
 
+// The text of a config's file, which parse_config then reads. Throws as load_config.
+std::string read_config(const std::filesystem::path& file);
+
 // The same with the text of a config that is at hand, such as the one in a table's file; `source`
 // stands in messages for the file.
 Config parse_config(std::string_view text, const std::filesystem::path& source,

@@ -10,8 +10,12 @@
 namespace ltc::config {
 
 toml::table read_toml(const std::filesystem::path& file, std::string_view kind) {
+  return parse_toml(read_toml_text(file, kind), file);
+}
+
+std::string read_toml_text(const std::filesystem::path& file, std::string_view kind) {
   constexpr std::size_t largest_bytes = 1 << 20;  // people write a few kB; /dev/zero has no end
-  return parse_toml(read_whole_file(file, kind, largest_bytes), file);
+  return read_whole_file(file, kind, largest_bytes);
 }
 
 toml::table parse_toml(std::string_view text, const std::filesystem::path& source) {

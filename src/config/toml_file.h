@@ -17,6 +17,9 @@ namespace ltc::config {
 // Throws IoError if it cannot be read, InputError if it is larger or not TOML.
 toml::table read_toml(const std::filesystem::path& file, std::string_view kind);
 
+// Such a content as it stands.
+std::string read_toml_text(const std::filesystem::path& file, std::string_view kind);
+
 // The same of text that is at hand; `source` stands in messages for the file.
 toml::table parse_toml(std::string_view text, const std::filesystem::path& source);
 

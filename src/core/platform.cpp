@@ -93,8 +93,12 @@ void require_replaceable(const fs::path& path) {
   const auto refuse = [&](std::string_view reason) {
     throw IoError(fmt::format("cannot write {}: {}", path.string(), reason));
   };
+  // Of the system's folders too, what leads to a file: /dev/stdout.
+  const std::string folder =
+      fs::weakly_canonical(folder_of(fs::absolute(path, ignored)), ignored).string();
   if (kind == fs::file_type::character || kind == fs::file_type::block ||
-      kind == fs::file_type::fifo || kind == fs::file_type::socket)
+      kind == fs::file_type::fifo || kind == fs::file_type::socket || folder == "/dev" ||
+      folder.starts_with("/proc/"))
     refuse("it is a device or a pipe; expected the name of a file");
   if (kind == fs::file_type::directory)
     refuse("it is a folder; expected the name of a file");

@@ -123,8 +123,13 @@ TEST_F(JsonDocumentOf, Fit) {
 TEST_F(JsonDocumentOf, Diff) {
   run_ltcfit(generate(tiny + Arguments{"--set", "output.name=U", "--set", "refine.steps=0"}),
              folder_.path());
-  const Arguments quick = {"--samples", "64", "--directions", "2"};
-  expect_documented({Arguments{"diff", "T.h5", "U.h5", "--tolerance", "0"} + quick,
+  // Another grid.
+  run_ltcfit(generate(tiny + Arguments{"--set", "output.name=V", "--set", "refine.steps=0", "--set",
+                                       "table.phi.nodes=3"}),
+             folder_.path());
+  const Arguments quick = {"--samples", "64", "--directions", "2", "--queries", "8"};
+  expect_documented({Arguments{"diff", "T.h5", "V.h5", "--tolerance", "0"} + quick,
+                     Arguments{"diff", "T.h5", "U.h5", "--tolerance", "0"} + quick,
                      Arguments{"diff", "T.h5", "U.h5"} + quick});
 }
 
@@ -143,8 +148,12 @@ TEST_F(JsonDocumentOf, Stress) {
 }
 
 TEST_F(JsonDocumentOf, Render) {
+  // A table whose axes do not reach the material.
+  run_ltcfit(generate(tiny + Arguments{"--set", "output.name=V", "--set", "refine.steps=0", "--set",
+                                       "table.alpha.first=0.2"}),
+             folder_.path());
   expect_documented(
-      {{"render", "T.h5", "--size", "8", "--samples", "16", "--material", "0.3,0.1"}});
+      {{"render", "V.h5", "--size", "8", "--samples", "16", "--material", "0.1,0.05"}});
 }
 
 }  // namespace

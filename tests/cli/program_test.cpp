@@ -30,7 +30,7 @@ TEST(Program, HelpOfACommandNamesDefaults) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   expect_contains(result.out, {"Usage: ltcfit generate", "--config", "--set", "--output", "[out]",
-                               "--threads", "What to fit:", "Where to write:"});
+                               "--threads", "What to fit:", "What to write:"});
 }
 
 TEST(Program, VersionNamesTheCommit) {

@@ -25,7 +25,7 @@ ProgramResult run_redirected(const Arguments& arguments, const std::string& redi
 std::vector<Arguments> one_of_each() {
   return {generate(unrefined, "out"),
           {"fit", "--entry", "1,1,1,1", "--samples", "64"},
-          {"diff", "T.h5", "T.h5", "--samples", "64", "--directions", "1"},
+          {"diff", "T.h5", "T.h5", "--samples", "64", "--directions", "1", "--queries", "8"},
           {"validate", "T.h5", "--no-quality"},
           {"bench", "--entries", "1", "--settings", "default", "--samples", "64"},
           {"stress", "--solver", "gauss-newton", "--quick", "--fits", "1"},
@@ -103,7 +103,8 @@ TEST_F(Streams, JsonTakesThePlaceOfTheTextOnStandardOutput) {
     EXPECT_FALSE(nlohmann::json::accept(beside.out));
     const auto keys = [](const std::string& text) {
       std::vector<std::string> all;
-      for (const auto& [key, value] : nlohmann::json::parse(text).items())
+      const nlohmann::json json = nlohmann::json::parse(text);
+      for (const auto& [key, value] : json.items())
         all.push_back(key);
       return all;
     };
