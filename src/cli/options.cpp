@@ -50,6 +50,10 @@ Allowed number(const Range& range) {
           }};
 }
 
+Allowed any_number() {
+  return {"a number", [](std::string& text) { return number_of(text).has_value(); }};
+}
+
 Allowed not_empty(const std::string& expected) {
   return {expected, [](std::string& text) { return !text.empty(); }};
 }

@@ -26,6 +26,7 @@ struct Allowed {
 };
 Allowed whole_number(double least, double most);  // also as 1e6
 Allowed number(const Range& range);
+Allowed any_number();  // where its range is checked later
 Allowed not_empty(const std::string& expected);
 // The seeds that configs take too.
 Allowed seed_number();

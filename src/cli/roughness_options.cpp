@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "cli/options.h"
 #include "core/error.h"
 #include "core/shell_quoted.h"
 
@@ -41,7 +42,7 @@ void add_roughness_options(CLI::App& app, RoughnessArguments& arguments,
                            const RoughnessHelp& help) {
   const auto add = [&](const char* name, std::optional<double>& value, const std::string& what,
                        const char* text) {
-    app.add_option(name, value, what)->option_text(text)->group(help.group);
+    allow(app.add_option(name, value, what), any_number())->option_text(text)->group(help.group);
   };
   add("--alpha-x", arguments.alpha_x, help.x, "X");
   add("--alpha-y", arguments.alpha_y, help.y, "Y");

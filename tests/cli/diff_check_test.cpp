@@ -228,8 +228,8 @@ TEST(DiffBadInput, IsRefusedInOneLineAndWritesNothing) {
   const fs::path cut = tables.write("cut.h5", whole.substr(0, whole.size() / 2));
   const std::vector<std::string> csv = {"--csv", "all.csv"};
   const auto without_use = [&](const char* b) {
-    return std::vector<std::string>{"diff", a.string(), (tables / b).string(), "--queries",
-                                    "0",    "--csv",    "new/all.csv"};
+    return std::vector<std::string>{"diff",  a.string(), (tables / b).string(), "--queries", "0",
+                                    "--csv", "all.csv"};
   };
   expect_refused(without_use("small.h5"), 2,
                  {a.string(), (tables / "small.h5").string(), "different shapes", "3x2x5x4",

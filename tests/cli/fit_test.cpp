@@ -224,8 +224,8 @@ TEST(Fit, TakesTheConfigOfATable) {
                        folder.path())
                 .exit_code,
             0);
-  const ProgramResult result =
-      run_ltcfit({"fit", "--config", "out/ltc.h5", "--entry", "1,0,1,1", "--json"}, folder.path());
+  const ProgramResult result = run_ltcfit(
+      {"fit", "--config", "out/ltc.h5", "--entry", "1,0,1,1", "--json", "-"}, folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(Json::parse(result.out)["seed"], 11);
   folder.write("text.h5", "no table");
@@ -239,7 +239,7 @@ TEST(Fit, TakesTheConfigOfATable) {
 TEST(Fit, TakesRoughnessAsEditorsHaveIt) {
   const auto lobe_of = [](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "fit");
-    arguments.insert(arguments.end(), {"--theta", "40", "--phi", "10", "--json"});
+    arguments.insert(arguments.end(), {"--theta", "40", "--phi", "10", "--json", "-"});
     const ProgramResult result = run_ltcfit(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return nlohmann::json::parse(result.out)["lobe"];

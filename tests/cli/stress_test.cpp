@@ -50,7 +50,7 @@ TEST(StressCommand, AMissedBarIsNamedAndReproducible) {
   ASSERT_GT(command.size(), 2u);
   EXPECT_EQ(command[0], "ltcfit");
   command.erase(command.begin());
-  command.push_back("--json");
+  command.insert(command.end(), {"--json", "-"});
   const ProgramResult again = run_ltcfit(command, folder.path());
   ASSERT_EQ(again.exit_code, 0) << again.err;
   const Json rows = Json::parse(again.out)["matrix"]["fitted"];
