@@ -13,11 +13,11 @@
 
 namespace ltc {
 
-Table read_table(const std::filesystem::path& path) {
+Table read_table(const std::filesystem::path& path, std::optional<Layout> layout) {
   if (path.extension() == ".h5")
     return read_hdf5(path);
   if (path.extension() == ".npy")
-    return read_npy(path);
+    return read_npy(path, layout);
   const std::string name = path.string();
   for (int index = 0; index < 3; ++index)
     if (const std::string suffix = fmt::format(".{}.exr", index); name.ends_with(suffix))

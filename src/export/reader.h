@@ -4,14 +4,16 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "table/table.h"
 
 namespace ltc {
 
 // By suffix: .h5, .npy, or one of the three textures <name>.0.exr to <name>.2.exr, which brings in
-// the other two. Throws InputError for another suffix, and as the format's own reader.
-Table read_table(const std::filesystem::path& path);
+// the other two. `layout` is for files without axes, .npy (see read_npy); others say what they
+// hold. Throws InputError for another suffix, and as the format's own reader.
+Table read_table(const std::filesystem::path& path, std::optional<Layout> layout = std::nullopt);
 
 // What a file of such a name holds beside axes and matrices.
 struct TableContents {
