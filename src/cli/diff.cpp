@@ -16,9 +16,9 @@
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/table_input.h"
 #include "core/error.h"
 #include "core/write_file.h"
-#include "export/reader.h"
 #include "validate/ratio_map.h"
 
 namespace ltc::cli {
@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::string a, b;
+  std::optional<Layout> layout;
   std::string csv, json, map;  // empty: none
   std::optional<double> tolerance;
   CompareSettings settings;
@@ -92,7 +93,8 @@ DiffReport compare(const Arguments& arguments, NamedTable a, NamedTable b,
 void diff(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
-  NamedTable a{arguments.a, read_table(arguments.a)}, b{arguments.b, read_table(arguments.b)};
+  NamedTable a{arguments.a, read_input(arguments.a, arguments.layout)},
+      b{arguments.b, read_input(arguments.b, arguments.layout)};
   const DiffSettings settings = settings_for(arguments, a.table, b.table);
   require_comparable(a, b, arguments, settings.use.queries > 0);
   const std::deque<OutputFolder> folders = prepare_outputs(arguments);
@@ -170,6 +172,7 @@ Action declare_diff(CLI::App& app) {
   app.add_option("B", arguments->b, "table to judge it against, .h5, .npy or .0.exr")
       ->required()
       ->option_text(" ");
+  add_layout_option(app, arguments->layout);
   app.add_option(
          "--tolerance", arguments->tolerance,
          "exit with 1 where the lobes of an entry are farther apart than this share of "

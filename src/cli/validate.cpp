@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "cli/command.h"
-#include "cli/fit_command.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/table_input.h"
 #include "cli/validate_report.h"
 #include "core/error.h"
 #include "core/write_file.h"
@@ -21,6 +21,7 @@ namespace {
 
 struct Arguments {
   std::string table;
+  std::optional<Layout> layout;
   ConfigArguments config;
   std::string json, report;  // empty: none
   bool no_quality = false;
@@ -40,10 +41,10 @@ std::string written_text(const std::filesystem::path& page) {
 void validate(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
-  Validation report{arguments.table, read_table(arguments.table), {}, std::nullopt, {}};
+  Validation report{
+      arguments.table, read_input(arguments.table, arguments.layout), {}, std::nullopt, {}};
   const ValidateSettings settings = load_validate_settings(
-      arguments.config.path(), arguments.config.overrides,
-      is_refined(report.table) ? settings_for_refined_tables() : ValidateSettings{});
+      arguments.config.path(), arguments.config.overrides, settings_for(report.table));
   const std::optional<OutputFolder> json_folder = folder_of_file(arguments.json);
   const std::optional<OutputFolder> page_folder = folder_of_file(page_of(arguments));
   report.invariants = check_invariants(report.table, settings.invariants, arguments.threads,
@@ -51,6 +52,9 @@ void validate(const Arguments& arguments) {
   if (!arguments.no_quality) {
     report.quality = measure_quality(report.table, settings.quality, arguments.threads, &progress);
     report.thresholds = check_thresholds(*report.quality, settings.thresholds);
+    for (ThresholdCheck& check : report.thresholds)
+      if (!check.reason.empty())
+        check.reason = why_not_limited(report.table);
   }
   const std::string page =
       arguments.report.empty() ? "" : validation_page(report, {}, arguments.threads, &progress);
@@ -72,6 +76,7 @@ Action declare_validate(CLI::App& app) {
   app.add_option("TABLE", arguments->table, "table to check, .h5, .npy or .0.exr")
       ->required()
       ->option_text(" ");
+  add_layout_option(app, arguments->layout);
   add_config_options(app, arguments->config,
                      {"TOML file that says which limits differ from the defaults, those of "
                       "config/validate.toml or, "

@@ -127,9 +127,9 @@ AreaLightJudge area_light_judge(const QualitySettings& settings) {
 
 Answer ask(const Table& table, const GgxLobe& lobe) {
   const LookUp found = look_up(table, lobe);
-  const QueryState state = !covers(table.grid, fold(lobe).lobe) ? QueryState::outside
-                           : !found.matrix.allFinite()          ? QueryState::missing
-                                                                : QueryState::judged;
+  const QueryState state = !covers(table.grid, fold(table.grid, lobe).lobe) ? QueryState::outside
+                           : !found.matrix.allFinite()                      ? QueryState::missing
+                                                                            : QueryState::judged;
   return {state, found};
 }
 
