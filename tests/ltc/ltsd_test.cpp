@@ -181,13 +181,17 @@ TEST(LinearlyTransformed, TheScaleOfTheMatrixIsNothing) {
 }
 
 TEST(ShareBelowHorizon, IsWhatThePolygonOfTheHorizonLeavesOut) {
-  // The upper hemisphere as a polygon of four points on the horizon.
-  const std::vector<Eigen::Vector3d> horizon = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  // Four octants: the horizon as one polygon would not say on which side it lies.
+  const std::vector<Eigen::Vector3d> horizon = {
+      {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}};
   Random random(11);
   for (int i = 0; i < 200; ++i) {
     const Eigen::Matrix3d matrix =
         Eigen::Matrix3d::NullaryExpr([&](auto, auto) { return 2 * random.uniform() - 1; });
-    const double above = LinearlyTransformed(matrix).integrate_polygon(horizon);
+    double above = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      above += LinearlyTransformed(matrix).integrate_polygon(
+          std::vector<Eigen::Vector3d>{horizon[k], horizon[k + 1], {0, 0, 1}});
     // Rounding, times the condition of a random matrix.
     EXPECT_NEAR(share_below_horizon(matrix), 1 - above, 1e-9) << matrix;
   }
