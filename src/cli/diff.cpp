@@ -14,9 +14,9 @@
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/table_input.h"
 #include "core/error.h"
 #include "core/write_file.h"
-#include "export/reader.h"
 #include "validate/ratio_map.h"
 
 namespace ltc::cli {
@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::string a, b;
+  std::optional<Layout> layout;
   std::string csv, json, map;  // empty: none
   std::optional<double> tolerance;
   CompareSettings settings;
@@ -75,7 +76,8 @@ DiffReport compare(const Arguments& arguments, NamedTable a, NamedTable b,
 void diff(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
-  NamedTable a{arguments.a, read_table(arguments.a)}, b{arguments.b, read_table(arguments.b)};
+  NamedTable a{arguments.a, read_input(arguments.a, arguments.layout)},
+      b{arguments.b, read_input(arguments.b, arguments.layout)};
   const DiffSettings settings = settings_for(arguments, a.table, b.table);
   require_comparable(a, b, arguments, settings.use.queries > 0);
   const DiffReport report = compare(arguments, std::move(a), std::move(b), settings, progress);
@@ -124,6 +126,7 @@ Action declare_diff(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   add_table_argument(app, "A", arguments->a, "table to judge");
   add_table_argument(app, "B", arguments->b, "table to judge it against");
+  add_layout_option(app, arguments->layout);
   Allowed tolerance = number({0, std::numeric_limits<double>::max()});
   tolerance.expected = "a number, 0 or more";
   allow(app.add_option(

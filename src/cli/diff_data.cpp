@@ -217,7 +217,10 @@ std::string report_json(const DiffReport& report) {
   Json json;
   json["a"] = report.a.file;
   json["b"] = report.b.file;
-  json["refined"] = {{"a", is_refined(report.a.table)}, {"b", is_refined(report.b.table)}};
+  const auto refined = [](const Table& table) {
+    return table.refined ? Json(*table.refined) : Json(nullptr);
+  };
+  json["refined"] = {{"a", refined(report.a.table)}, {"b", refined(report.b.table)}};
   json["samples"] = report.settings.nodes.samples;
   json["directions"] = report.settings.nodes.directions;
   json["seed"] = report.settings.nodes.seed;

@@ -16,6 +16,7 @@
 #include "cli/roughness_options.h"
 #include "cli/scene_file.h"
 #include "cli/stored_report.h"
+#include "cli/table_input.h"
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/platform.h"
@@ -47,6 +48,7 @@ struct Arguments {
   std::string solver, seed, samples;  // empty: the config's
   std::string start;                  // empty: the solver's own
   std::string trace, plot, json;      // empty: none
+  std::optional<Layout> layout;       // of the table of as_in
   bool check_gradient = false;
   int threads = default_threads();
 };
@@ -228,8 +230,10 @@ void require_one_name(const Arguments& arguments) {
 
 // What the table holds for the lobe; nothing is fitted but the floor.
 void show_as_in(const Arguments& arguments, const Progress& progress) {
-  StoredReport report{
-      arguments.as_in, contents_of(arguments.as_in), read_table(arguments.as_in), {}};
+  StoredReport report{arguments.as_in,
+                      contents_of(arguments.as_in),
+                      read_input(arguments.as_in, arguments.layout),
+                      {}};
   const auto named = [&](auto&& action) {
     try {
       return action();
@@ -350,6 +354,8 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
 Action declare_fit(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   add_lobe_options(app, *arguments);
+  add_layout_option(app, arguments->layout);
+  app.get_option("--layout")->needs(app.get_option("--as-in"));
   add_config_options(app, arguments->config);
   add_fit_options(app, *arguments);
   add_output_options(app, *arguments);

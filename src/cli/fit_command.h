@@ -12,10 +12,6 @@
 
 namespace ltc::cli {
 
-// Whether the table's config asks for a refinement after the fit; if so, its entries are no fits of
-// their lobes any more.
-bool is_refined(const Table& table);
-
 // Commands for the entries of a table that was read from a file; the table must outlive them.
 class EntryCommands {
  public:

@@ -12,6 +12,7 @@
 
 #include "cli/checkpoint_keeper.h"
 #include "cli/command.h"
+#include "cli/creation_time.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
@@ -28,6 +29,7 @@
 #include "scene/query_ranges.h"
 #include "table/entry_text.h"
 #include "table/extend.h"
+#include "validate/half_precision.h"
 
 namespace ltc::cli {
 namespace {
@@ -51,16 +53,43 @@ bool writes_npy(const Config& config) {
   return config.output.npy && npy_can_hold(config.grid);
 }
 
-std::vector<fs::path> files_of(const Config& config, const fs::path& folder) {
+// The files that a run writes, and the others that a set of this name can have.
+struct FilesOfSet {
+  std::vector<fs::path> written, others;
+};
+
+FilesOfSet files_of(const Config& config, const fs::path& folder) {
   const OutputSettings& output = config.output;
-  std::vector<fs::path> files;
-  if (output.hdf5)
-    files.push_back(folder / (output.name + ".h5"));
-  for (int i = 0; output.exr && i < 3; ++i)
-    files.push_back(folder / fmt::format("{}.{}.exr", output.name, i));
-  if (writes_npy(config))
-    files.push_back(folder / (output.name + ".npy"));
+  FilesOfSet files;
+  const auto add = [&](const std::string& ending, bool written) {
+    (written ? files.written : files.others).push_back(folder / (output.name + ending));
+  };
+  add(".h5", output.hdf5);
+  for (int i = 0; i < 3; ++i)
+    add(fmt::format(".{}.exr", i), output.exr);
+  add(".npy", writes_npy(config));
   return files;
+}
+
+// Of the others those that are there: left in the folder, they would be of another table than the
+// files beside them. An input is not removed unasked.
+std::vector<fs::path> files_to_remove(const std::vector<fs::path>& others,
+                                      const Arguments& arguments) {
+  std::vector<fs::path> older;
+  std::error_code ignored;
+  for (const fs::path& file : others) {
+    if (!fs::exists(fs::symlink_status(file, ignored)) || fs::is_directory(file, ignored))
+      continue;
+    for (const std::string& input : {arguments.extend, arguments.config.file, arguments.scene})
+      if (!input.empty() && fs::equivalent(input, file, ignored))
+        throw InputError(
+            fmt::format("{} is read by this run and belongs to the files that it replaces, but is "
+                        "none that it writes: it would be removed; name another folder with "
+                        "--output, or set output.name",
+                        file.string()));
+    older.push_back(file);
+  }
+  return older;
 }
 
 fs::path checkpoint_of(const Config& config, const fs::path& folder) {
@@ -68,7 +97,8 @@ fs::path checkpoint_of(const Config& config, const fs::path& folder) {
 }
 
 // All or none: an older set of files stands until the new one is on the disk.
-void write_files(const Table& table, const Config& config, const fs::path& folder) {
+void write_files(const Table& table, const Config& config, const fs::path& folder,
+                 const std::vector<fs::path>& removed) {
   const OutputSettings& output = config.output;
   platform::FileSet files;
   if (output.hdf5)
@@ -77,6 +107,8 @@ void write_files(const Table& table, const Config& config, const fs::path& folde
     add_exr(files, table, folder / output.name, output.exr_half);
   if (writes_npy(config))
     add_npy(files, table, folder / (output.name + ".npy"));
+  for (const fs::path& file : removed)
+    files.remove(file);
   files.commit();
 }
 
@@ -127,6 +159,12 @@ std::size_t count_failed(const Table& table) {
       std::count(table.status.begin(), table.status.end(), Status::failed));
 }
 
+std::vector<bool> with_values(const Table& table) {
+  std::vector<bool> entries(table.status.size());
+  std::transform(table.status.begin(), table.status.end(), entries.begin(), has_values);
+  return entries;
+}
+
 // Nothing to write, rather than files of NaN.
 void require_any_value(const Table& table) {
   if (count_failed(table) > 0 && std::none_of(table.status.begin(), table.status.end(), has_values))
@@ -138,7 +176,8 @@ void require_any_value(const Table& table) {
 
 // Fits the table and writes its files, or leaves a checkpoint to go on from.
 Table make_files(const Arguments& arguments, const Config& config, const Work& work,
-                 const fs::path& folder, Progress& progress, RunReport& report) {
+                 const fs::path& folder, const std::string& created, Progress& progress,
+                 RunReport& report) {
   const CheckpointTask task{checkpoint_of(config, folder), config, work.to_fit,
                             arguments.checkpoint_seconds};
   const std::unique_ptr<FitJournal> journal = open_journal(task, arguments.resume);
@@ -149,6 +188,7 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
   keeper.guard([&] {
     table = generate_table(config, work.to_fit, arguments.threads, &progress, &report.generate,
                            journal.get(), {work.asked, work.existing ? &*work.existing : nullptr});
+    table.created = created;
     keeper.close();
     if (work.existing)
       table = extended(*work.existing, table);
@@ -156,7 +196,7 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
     // The last chance to stop: the files are written all or none.
     progress.throw_if_stopped();
     const Clock::time_point writing_began = Clock::now();
-    write_files(table, config, folder);
+    write_files(table, config, folder, report.removed);
     report.generate.stage_seconds.emplace_back("write", seconds_since(writing_began));
   });
   keeper.remove();
@@ -196,20 +236,26 @@ void generate(const Arguments& arguments, Files& files) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
 
+  const std::string created = creation_time();
   const Config config = arguments.config.load();
   const Work work = plan_work(arguments, config);
   const fs::path folder = files.make_folder(arguments.output);
   const platform::FolderLock lock(folder);
   RunReport report;
-  report.files = files_of(config, folder);
+  const FilesOfSet set = files_of(config, folder);
+  report.files = set.written;
+  report.removed = files_to_remove(set.others, arguments);
   for (const fs::path& file : report.files)
     files.write("--output", file);
   files.write("--output", checkpoint_of(config, folder));
 
-  const Table table = make_files(arguments, config, work, folder, progress, report);
+  const Table table = make_files(arguments, config, work, folder, created, progress, report);
   report.needed = count_true(work.needed);
   report.added = count_true(work.to_fit);
   report.extends = work.existing.has_value();
+  if (config.output.exr && config.output.exr_half)
+    report.half = half_precision_text(
+        table.grid, half_precision_errors(table, with_values(table), arguments.threads, nullptr));
   report.npy_left_out = config.output.npy && !writes_npy(config);
   report.seconds = seconds_since(began);
   report.peak_memory_bytes = platform::peak_memory_bytes();

@@ -29,6 +29,9 @@ std::string figures_text(const QualityReport& quality) {
          row_text("area lights, shape alone", quality.area_light) +
          row_text("  with the table's amplitude", quality.area_light_with_amplitude) +
          row_text("  floor: each query fitted", quality.floor_area_light) +
+         row_text("below the horizon, at nodes", quality.nodes_below_horizon) +
+         row_text("below the horizon, between nodes", quality.below_horizon) +
+         row_text("  floor: each query fitted", quality.floor_below_horizon) +
          fmt::format("  noise of the GGX that they are judged by: {:.1e} a light\n",
                      quality.area_light_noise);
 }
@@ -76,7 +79,9 @@ std::string worst_text(const std::string& file, const QualityReport& quality) {
 std::string thresholds_text(const std::vector<ThresholdCheck>& thresholds) {
   std::string text = fmt::format("\n{:<36} {:>8}  {}\n", "threshold", "mean", "allowed");
   for (const ThresholdCheck& check : thresholds)
-    text += std::isnan(check.value)
+    text += !check.reason.empty()
+                ? fmt::format("{:<36} {:>8}  not checked: {}\n", check.what, "", check.reason)
+            : std::isnan(check.value)
                 ? fmt::format("{:<36} {:>8}  at most {:<8.4g} not judged\n", check.what, "",
                               check.limit)
                 : fmt::format("{:<36} {:>8.4f}  at most {:<8.4g} {}\n", check.what, check.value,
@@ -123,6 +128,7 @@ Json query_json(const std::string& file, const QueryFloor& floor, const QueryQua
           {"area_light_error", query.area_light.mean_absolute},
           {"area_light_error_with_amplitude", query.area_light_with_amplitude.mean_absolute},
           {"floor_area_light_error", floor.area_light.mean_absolute},
+          {"below_horizon", query.below_horizon},
           {"area_light_noise", floor.area_light.standard_error},
           {"command", query_command(file, lobe)}};
 }
@@ -144,7 +150,9 @@ Json quality_json(const std::string& file, const QualityReport& quality,
          {"what", check.what},
          {"value", check.value},
          {"at_most", check.limit},
-         {"passed", std::isnan(check.value) ? Json(nullptr) : Json(check.passed)}});
+         {"passed",
+          std::isnan(check.value) || !check.reason.empty() ? Json(nullptr) : Json(check.passed)},
+         {"reason", check.reason}});
   json["node_loss"] = json_of(quality.nodes);
   json["nodes_without_values"] = quality.nodes_without_values;
   json["query_loss"] = json_of(quality.query_losses);
@@ -153,6 +161,9 @@ Json quality_json(const std::string& file, const QualityReport& quality,
   json["area_light_error_with_amplitude"] = json_of(quality.area_light_with_amplitude);
   json["floor_area_light_error"] = json_of(quality.floor_area_light);
   json["area_light_noise"] = quality.area_light_noise;
+  json["nodes_below_horizon"] = json_of(quality.nodes_below_horizon);
+  json["below_horizon"] = json_of(quality.below_horizon);
+  json["floor_below_horizon"] = json_of(quality.floor_below_horizon);
   json["queries_missing"] = quality.queries_missing;
   json["queries_outside"] = quality.queries_outside;
   json["queries_singular"] = quality.queries_singular;

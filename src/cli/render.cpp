@@ -19,6 +19,7 @@
 #include "cli/progress.h"
 #include "cli/render_report.h"
 #include "cli/roughness_options.h"
+#include "cli/table_input.h"
 #include "core/error.h"
 #include "core/version.h"
 #include "core/write_file.h"
@@ -34,6 +35,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Arguments {
   std::string table, table_b;  // table_b empty: none
+  std::optional<Layout> layout;
   RoughnessArguments roughness;
   std::vector<std::string> materials;  // as parse_roughness takes them
   double f0 = 1;
@@ -81,7 +83,7 @@ Tables load_tables(const Arguments& arguments) {
   if (!arguments.table_b.empty())
     tables.paths.push_back(arguments.table_b);
   for (std::size_t i = 0; i < tables.paths.size(); ++i) {
-    tables.tables.push_back(read_table(tables.paths[i]));
+    tables.tables.push_back(read_input(tables.paths[i], arguments.layout));
     fill_missing_albedo(tables.tables.back());
     tables.names.push_back(tables.paths.size() == 1 ? "LTC" : i == 0 ? "LTC, A" : "LTC, B");
   }
@@ -243,6 +245,7 @@ void render(const Arguments& arguments, Files& files) {
 Action declare_render(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   add_table_argument(app, "TABLE", arguments->table, "table to render with");
+  add_layout_option(app, arguments->layout);
   constexpr const char* what = "What to render";
   add_roughness_options(app, arguments->roughness,
                         {"roughness along the parallels [the four materials of figure 14]",

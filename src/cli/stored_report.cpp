@@ -7,7 +7,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "cli/fit_command.h"
 #include "cli/lobe_words.h"
 #include "table/entry_text.h"
 #include "table/lookup.h"
@@ -36,7 +35,7 @@ std::string nodes_text(const StoredReport& report) {
                                  lobe.nodes.size(), lobe.nodes.size() == 1 ? "entry" : "entries");
   if (!lobe.within_axes)
     text += "         the lobe is beyond the table's axes: clamped to them, as a shader does\n";
-  if (fold(lobe.lobe).unfold.determinant() < 0)
+  if (fold(report.table.grid, lobe.lobe).unfold.determinant() < 0)
     text += "         unfolded by a reflection: a negative determinant, the same lobe\n";
   for (const TakenNode& node : lobe.nodes)
     text += fmt::format("         {:>7.4f} of {:<11} ({}) {:.4f}\n", node.weight,
@@ -60,7 +59,7 @@ std::string term_text(double value) {
 std::string report_text(const StoredReport& report) {
   const StoredLobe& lobe = report.lobe;
   const LobeFit& floor = lobe.floor;
-  const bool refined = is_refined(report.table);
+  const bool refined = report.table.refined == true;
   std::string text =
       fmt::format("table    {}, storage {}{}\n", report.file, storage_name(report.table.storage),
                   refined ? ", refined after the fit" : "");
@@ -89,7 +88,7 @@ std::string report_json(const StoredReport& report) {
   Json json;
   json["table"] = report.file;
   json["storage"] = storage_name(report.table.storage);
-  json["refined"] = is_refined(report.table);
+  json["refined"] = report.table.refined ? Json(*report.table.refined) : Json(nullptr);
   json["lobe"] = lobe_json(lobe.lobe);
   if (lobe.entry) {
     json["entry"] = entry_text(grid, *lobe.entry);

@@ -105,10 +105,14 @@ std::string summary_text(const Table& table, const RunReport& report) {
                       report.generate.largest_zeroed,
                       entry_text(table.grid, report.generate.largest_zeroed_entry));
   text += worst_text(table, summary, report);
+  if (!report.half.empty())
+    text += fmt::format("half     {}\n", report.half);
   if (report.npy_left_out)
     text += "no NPY   it holds the paper's grid only\n";
   for (const std::filesystem::path& file : report.files)
     text += fmt::format("wrote    {}\n", file.string());
+  for (const std::filesystem::path& file : report.removed)
+    text += fmt::format("removed  {}: of an older table\n", file.string());
   return text;
 }
 

@@ -14,10 +14,13 @@ namespace ltc::cli {
 
 struct RunReport {
   GenerateReport generate;
-  std::size_t needed = 0;     // entries that the scene needs; all without a scene
-  std::size_t added = 0;      // of these, not in the table that is extended
-  bool extends = false;       // whether one is
-  std::size_t resumed = 0;    // fits taken from a checkpoint
+  std::size_t needed = 0;   // entries that the scene needs; all without a scene
+  std::size_t added = 0;    // of these, not in the table that is extended
+  bool extends = false;     // whether one is
+  std::size_t resumed = 0;  // fits taken from a checkpoint
+  std::string half;         // what 16-bit textures cost, in words; empty: none were written
+  std::vector<std::filesystem::path>
+      removed;                // older files of the set that this run does not write
   bool npy_left_out = false;  // asked for, but the grid is not the paper's
   double seconds = 0;         // the whole run, files included
   std::size_t peak_memory_bytes = 0;

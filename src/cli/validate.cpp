@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "cli/command.h"
-#include "cli/fit_command.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/table_input.h"
 #include "cli/validate_report.h"
 #include "core/error.h"
 #include "core/write_file.h"
@@ -21,6 +21,7 @@ namespace {
 
 struct Arguments {
   std::string table;
+  std::optional<Layout> layout;
   ConfigArguments config;
   std::string json, report;  // empty: none
   bool no_quality = false;
@@ -44,15 +45,18 @@ void validate(const Arguments& arguments, Files& files) {
   const StopOnInterrupt stop_on_interrupt(progress);
   if (!arguments.report.empty())
     files.write("--report", files.make_folder(arguments.report) / page_name);
-  Validation report{arguments.table, read_table(arguments.table), {}, std::nullopt, {}};
+  Validation report{
+      arguments.table, read_input(arguments.table, arguments.layout), {}, std::nullopt, {}};
   const ValidateSettings settings = load_validate_settings(
-      arguments.config.path(), arguments.config.overrides,
-      is_refined(report.table) ? settings_for_refined_tables() : ValidateSettings{});
+      arguments.config.path(), arguments.config.overrides, settings_for(report.table));
   report.invariants = check_invariants(report.table, settings.invariants, arguments.threads,
                                        &progress, contents_of(arguments.table));
   if (!arguments.no_quality) {
     report.quality = measure_quality(report.table, settings.quality, arguments.threads, &progress);
     report.thresholds = check_thresholds(*report.quality, settings.thresholds);
+    for (ThresholdCheck& check : report.thresholds)
+      if (!check.reason.empty())
+        check.reason = why_not_limited(report.table);
   }
   const std::string page =
       arguments.report.empty() ? "" : validation_page(report, {}, arguments.threads, &progress);
@@ -72,6 +76,7 @@ void validate(const Arguments& arguments, Files& files) {
 Action declare_validate(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   add_table_argument(app, "TABLE", arguments->table, "table to check");
+  add_layout_option(app, arguments->layout);
   add_config_options(app, arguments->config,
                      {"TOML file that says which limits differ from the defaults, those of "
                       "config/validate.toml or, "

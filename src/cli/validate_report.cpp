@@ -9,6 +9,7 @@
 
 #include "cli/fit_command.h"
 #include "cli/quality_report.h"
+#include "fit/symmetry_plan.h"
 #include "table/entry_text.h"
 
 namespace ltc::cli {
@@ -23,25 +24,27 @@ std::string table_text(const Validation& report) {
   const auto shape = grid.shape();
   const auto skipped =
       std::count(report.table.status.begin(), report.table.status.end(), Status::skipped);
-  return fmt::format("{}: {}x{}x{}x{} entries, storage {}, {} skipped\n\n", report.file, shape[0],
-                     shape[1], shape[2], shape[3], storage_name(report.table.storage), skipped);
+  return fmt::format("{}: {}x{}x{}x{} entries, storage {}, {} skipped\n{}\n\n", report.file,
+                     shape[0], shape[1], shape[2], shape[3], storage_name(report.table.storage),
+                     skipped, kind_text(report.table));
+}
+
+std::string verdict_text(const InvariantResult& result) {
+  return !result.passed ? "FAILED" : result.judged ? "passed" : "not judged";
 }
 
 std::string row_text(const Grid& grid, const InvariantResult& result) {
-  const std::string limit =
-      fmt::format("{} {:.4g}", result.at_most ? "at most" : "above", result.limit);
   if (!result.checked)
-    return fmt::format("{:<20} {:>12}  {:<16} not in the file\n", result.name, "", limit);
+    return fmt::format("{:<20} {:>12}  not checked: {}\n", result.name, "", result.reason);
   if (!result.has_worst)
-    return fmt::format("{:<20} {:>12}  {:<16} {}\n", result.name, "", "",
-                       result.passed ? "passed" : "FAILED");
+    return fmt::format("{:<20} {:>12}  {:<16} {}\n", result.name, "", "", verdict_text(result));
   // Where all entries have the least value there is, none is worst.
   const bool none_is_worst = result.passed && result.value == 0;
   const std::string where = none_is_worst ? ""
                                           : fmt::format("{} ({})", entry_text(grid, result.worst),
                                                         lobe_text(grid, result.worst));
-  return fmt::format("{:<20} {:>12.4g}  {:<16} {:<8} {}\n", result.name, result.value, limit,
-                     result.passed ? "passed" : "FAILED", where);
+  return fmt::format("{:<20} {:>12.4g}  {:<16} {:<10} {}\n", result.name, result.value,
+                     allowed_text(result), verdict_text(result), where);
 }
 
 // What the table holds there, and what its config makes of the entry.
@@ -60,13 +63,13 @@ std::string failed_text(const Validation& report, const InvariantResult& result,
   std::string text =
       fmt::format("\n{} fails at {} {}, worst first:\n", result.name, result.entries.size(),
                   result.entries.size() == 1 ? "entry" : "entries");
-  const std::size_t shown = std::min(result.entries.size(), most_shown);
-  for (std::size_t i = 0; i < shown; ++i)
-    text += fmt::format("  {} ({})\n{}", entry_text(report.table.grid, result.entries[i]),
-                        lobe_text(report.table.grid, result.entries[i]),
-                        commands_text(commands, result.entries[i]));
-  if (shown < result.entries.size())
-    text += fmt::format("  and {} more; --json lists all\n", result.entries.size() - shown);
+  std::vector<std::size_t> shown = each_lobe_once(report.table.grid, result.entries);
+  shown.resize(std::min(shown.size(), most_shown));
+  for (const std::size_t flat : shown)
+    text += fmt::format("  {} ({})\n{}", entry_text(report.table.grid, flat),
+                        lobe_text(report.table.grid, flat), commands_text(commands, flat));
+  if (shown.size() < result.entries.size())
+    text += fmt::format("  and {} more; --json lists all\n", result.entries.size() - shown.size());
   return text;
 }
 
@@ -85,7 +88,9 @@ Json invariant_json(const Validation& report, const InvariantResult& result,
   Json json;
   json["name"] = result.name;
   json["checked"] = result.checked;
+  json["judged"] = result.checked && result.judged;
   json["passed"] = result.checked ? Json(result.passed) : Json(nullptr);
+  json["reason"] = result.reason;
   if (result.checked && result.has_worst) {
     json["value"] = result.value;  // null where it is not finite
     json["worst"] = entry_json(report, result.worst, commands);
@@ -104,7 +109,7 @@ std::string report_text(const Validation& report) {
   const EntryCommands commands(report.file, report.table);
   std::string text = table_text(report);
   text +=
-      fmt::format("{:<20} {:>12}  {:<16} {:<8} {}\n", "check", "worst", "allowed", "", "at entry");
+      fmt::format("{:<20} {:>12}  {:<16} {:<10} {}\n", "check", "worst", "allowed", "", "at entry");
   for (const InvariantResult& result : report.invariants)
     text += row_text(report.table.grid, result);
   for (const InvariantResult& result : report.invariants)
@@ -120,6 +125,8 @@ std::string report_json(const Validation& report) {
   Json json;
   json["table"] = report.file;
   json["passed"] = failure_text(report).empty();
+  json["refined"] = report.table.refined ? Json(*report.table.refined) : Json(nullptr);
+  json["bits"] = report.table.precision == Precision::half ? 16 : 32;
   json["invariants"] = Json::array();
   for (const InvariantResult& result : report.invariants)
     json["invariants"].push_back(invariant_json(report, result, commands));

@@ -233,6 +233,11 @@ void FileSet::add(const fs::path& path, const std::function<void(const fs::path&
 
 void FileSet::commit() {
   std::set<fs::path> folders;
+  for (const fs::path& path : removed_)
+    if (::unlink(path.c_str()) == 0)
+      folders.insert(folder_of(path));
+    else if (errno != ENOENT)
+      throw_io("cannot remove", path, errno);
   while (!written_.empty()) {
     const File& file = written_.front();
     if (std::rename(file.temporary.c_str(), file.path.c_str()) != 0)
@@ -375,8 +380,12 @@ double processor_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+std::string utc_iso8601(std::int64_t seconds) {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", fmt::gmtime(static_cast<std::time_t>(seconds)));
+}
+
 std::string utc_now_iso8601() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", fmt::gmtime(std::time(nullptr)));
+  return utc_iso8601(std::time(nullptr));
 }
 
 }  // namespace ltc::platform

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -29,8 +30,11 @@ class FileSet {
   void add(const std::filesystem::path& path,
            const std::function<void(const std::filesystem::path&)>& write);
 
-  // Renames all to their paths, in the order they were added. Throws IoError if a name is refused;
-  // the files before it have then taken their places.
+  // Has `path` removed, if there is such a file, before the others take their places.
+  void remove(const std::filesystem::path& path) { removed_.push_back(path); }
+
+  // Removes what is to be removed, then renames all to their paths, in the order they were added.
+  // Throws IoError if a name is refused; the files before it have then taken their places.
   void commit();
 
  private:
@@ -38,6 +42,7 @@ class FileSet {
     std::filesystem::path temporary, path;
   };
   std::vector<File> written_;
+  std::vector<std::filesystem::path> removed_;
 };
 
 // Removes temporary files that processes left beside `path` when they were killed while writing it.
@@ -109,7 +114,8 @@ std::size_t peak_memory_bytes();
 // Seconds of processor time this process has used, all threads together.
 double processor_seconds();
 
-// "2026-11-22T01:02:03Z".
+// "2026-11-22T01:02:03Z": a time in seconds since 1970, up to the year 9999; and now.
+std::string utc_iso8601(std::int64_t seconds);
 std::string utc_now_iso8601();
 
 }  // namespace ltc::platform

@@ -25,10 +25,10 @@ void write_exr(const Table& table, const std::filesystem::path& prefix, bool hal
 void add_exr(platform::FileSet& files, const Table& table, const std::filesystem::path& prefix,
              bool half);
 
-// What the three files hold: every entry counts as fitted, its loss is NaN, its steps 0; brdf,
-// seed, config, generator and created are empty. Throws IoError for a file that cannot be opened;
-// InputError, naming file and fault, for one that is not of the layout, is damaged, or disagrees
-// with the others.
+// What the three files hold: every entry counts as fitted, its loss is NaN, its steps 0, precision
+// `half` where a channel is; brdf, seed, config, generator and created are empty. Throws IoError
+// for a file that cannot be opened; InputError, naming file and fault, for one that is not of the
+// layout, is damaged, or disagrees with the others.
 Table read_exr(const std::filesystem::path& prefix);
 
 }  // namespace ltc

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,24 @@ Grid read_grid(const Imf::Header& header, const fs::path& path) {
   return grid;
 }
 
+// Nothing where the file does not say.
+std::optional<bool> read_refined(const Imf::Header& header, const fs::path& path) {
+  constexpr const char* name = "ltc:refined";
+  if (header.find(name) == header.end())
+    return std::nullopt;
+  const int refined = attribute<Imf::IntAttribute>(header, name, path);
+  if (refined != 0 && refined != 1)
+    refuse(path, fmt::format("{} is {}; allowed: 0 and 1", name, refined));
+  return refined == 1;
+}
+
+bool has_half_channel(const Imf::Header& header) {
+  for (const char* name : channel_names)
+    if (header.channels().findChannel(name)->type == Imf::HALF)
+      return true;
+  return false;
+}
+
 void require_channels(const Imf::Header& header, int index, const fs::path& path) {
   const auto expected = channel_contents[static_cast<std::size_t>(index)];
   const auto found = attribute<Imf::StringAttribute>(header, "ltc:channels", path);
@@ -125,7 +144,10 @@ Table read_header(const Imf::InputFile& file, int index, std::uintmax_t file_byt
   require_size(header, grid, path);
   require_room_for_pixels(grid, file_bytes, path);
   const auto storage = attribute<Imf::StringAttribute>(header, "ltc:storage", path);
-  return Table::empty(grid, storage_from_name(storage));
+  Table table = Table::empty(grid, storage_from_name(storage));
+  table.refined = read_refined(header, path);
+  table.precision = has_half_channel(header) ? Precision::half : Precision::single;
+  return table;
 }
 
 std::vector<float> read_pixels(Imf::InputFile& file, const Grid& grid) {
@@ -174,10 +196,14 @@ void read_file_into(Table& table, int index, const fs::path& path) {
     constexpr int no_threads = 0;
     Imf::InputFile file(path.c_str(), no_threads);
     Table found = read_header(file, index, file_bytes, path);
+    const bool half = found.precision == Precision::half;
     if (index == 0)
       table = std::move(found);
-    else if (found.grid != table.grid || found.storage != table.storage)
-      refuse(path, "axes, warp, storage or alpha_min differ from those of file 0");
+    else if (found.grid != table.grid || found.storage != table.storage ||
+             found.refined != table.refined)
+      refuse(path, "axes, warp, storage, alpha_min or ltc:refined differ from those of file 0");
+    if (half)
+      table.precision = Precision::half;
     take_pixels(table, index, read_pixels(file, table.grid), path);
   } catch (const InputError& error) {
     // Names of warps and storages are refused by those who know them, not the file.

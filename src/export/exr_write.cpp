@@ -89,6 +89,8 @@ Imf::Header make_header(const Table& table, std::size_t file, Imf::PixelType typ
   header.insert("ltc:warp", Imf::StringAttribute(warps.dump()));
   header.insert("ltc:storage", Imf::StringAttribute(std::string(storage_name(table.storage))));
   header.insert("ltc:alpha_min", Imf::DoubleAttribute(table.grid.alpha_min));
+  if (table.refined)
+    header.insert("ltc:refined", Imf::IntAttribute(*table.refined));
   header.insert("ltc:channels", Imf::StringAttribute(std::string(channel_contents[file])));
   return header;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ void write_attributes(Hdf5Output& file, const Table& table) {
   file.text(root, "generator", table.generator);
   file.text(root, "config", table.config);
   file.text(root, "created", table.created);
+  if (table.refined)
+    file.number(root, "refined", std::int32_t{*table.refined});
 }
 
 void write_axes(Hdf5Output& file, const Grid& grid) {
@@ -116,6 +119,17 @@ Grid read_grid(const Hdf5Input& file, const fs::path& path) {
   return grid;
 }
 
+// Nothing where the file does not say.
+std::optional<bool> read_refined(const Hdf5Input& file, const fs::path& path) {
+  if (!file.has_attribute(root, "refined"))
+    return std::nullopt;
+  const std::int64_t refined = file.integer(root, "refined");
+  if (refined != 0 && refined != 1)
+    throw InputError(
+        fmt::format("{}: attribute refined is {}; allowed: 0 and 1", path.string(), refined));
+  return refined == 1;
+}
+
 void read_attributes(const Hdf5Input& file, const fs::path& path, Table& table) {
   table.storage = named(file, path, root, "storage", storage_from_name);
   table.brdf = file.text(root, "brdf");
@@ -123,6 +137,7 @@ void read_attributes(const Hdf5Input& file, const fs::path& path, Table& table) 
   table.generator = file.text(root, "generator");
   table.config = file.text(root, "config");
   table.created = file.text(root, "created");
+  table.refined = read_refined(file, path);
 }
 
 std::vector<Status> read_status(const Hdf5Input& file, const fs::path& path,

@@ -221,6 +221,11 @@ Hdf5Handle Hdf5Input::open_attribute(const std::string& object,
   return handle;
 }
 
+bool Hdf5Input::has_attribute(const std::string& object, const std::string& attribute) const {
+  return linked_within_the_file(file_.id(), object) &&
+         H5Aexists_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
+}
+
 std::string Hdf5Input::text(const std::string& object, const std::string& attribute) const {
   const Hdf5Handle handle = open_attribute(object, attribute);
   const Hdf5Handle type(H5Aget_type(handle.id()), H5Tclose);

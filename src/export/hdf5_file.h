@@ -49,6 +49,7 @@ class Hdf5Input {
  public:
   explicit Hdf5Input(const std::filesystem::path& path);
 
+  bool has_attribute(const std::string& object, const std::string& attribute) const;
   // A string attribute, of variable or fixed length.
   std::string text(const std::string& object, const std::string& attribute) const;
   // Scalar attributes: exactly f64; exactly u64; an integer of any size.

@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/quantile.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
 #include "export/file.h"
@@ -171,13 +172,37 @@ void write_npy(const Table& table, const fs::path& path) {
   files.commit();
 }
 
-Table read_npy(const fs::path& path) {
+Layout layout_of(const Table& table) {
+  const auto [alphas, lambdas, thetas, phis] = table.grid.shape();
+  if (alphas != lambdas || alphas == 1 || phis == 1)
+    return Layout::alpha_lambda;
+  std::vector<double> differences;
+  for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
+    const NodeIndex node = table.grid.node(flat);
+    const std::size_t image =
+        table.grid.flat({node.lambda, node.alpha, node.theta, phis - 1 - node.phi});
+    if (node.alpha == node.lambda || !has_values(table.status[flat]) ||
+        !has_values(table.status[image]))
+      continue;
+    const Eigen::Matrix3d matrix = table.stored_at(flat), other = table.stored_at(image);
+    const Eigen::PermutationMatrix<3> exchange(Eigen::Vector3i(1, 0, 2));
+    if (const double size = matrix.norm(); size > 0)
+      differences.push_back((matrix - exchange * other * exchange).norm() / size);
+  }
+  constexpr double alike = 0.1;
+  std::sort(differences.begin(), differences.end());
+  return !differences.empty() && quantile(differences, 0.5) < alike ? Layout::alphax_alphay
+                                                                    : Layout::alpha_lambda;
+}
+
+Table read_npy(const fs::path& path, std::optional<Layout> layout) {
   const std::uintmax_t file_bytes = require_readable(path);
   std::ifstream file(path, std::ios::binary);
   const Grid grid = read_grid(read_dictionary(file, path), path);
   Table table = read_matrices(file, file_bytes, grid, path);
   set_status(table);
   require_consistent(table, path);
+  table.grid.layout = layout.value_or(layout_of(table));
   return table;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "core/platform.h"
 #include "table/table.h"
@@ -23,10 +24,18 @@ void write_npy(const Table& table, const std::filesystem::path& path);
 // The same as one of several files, which all take their places with files.commit().
 void add_npy(platform::FileSet& files, const Table& table, const std::filesystem::path& path);
 
-// The table of such an array: the paper's axes, storage `matrix`. Amplitude, Fresnel term and loss
+// The table of such an array: the paper's axes, storage `matrix`; the first two are those of
+// `layout` or, where it is not given, of layout_of. Amplitude, Fresnel term and loss
 // are NaN, steps 0; an entry of nine NaNs counts as skipped, every other as fitted. Throws IoError
 // for a file that cannot be opened; InputError, naming file and fault, for one that is no such
 // array or is cut short.
-Table read_npy(const std::filesystem::path& path);
+Table read_npy(const std::filesystem::path& path, std::optional<Layout> layout = std::nullopt);
+
+// What the first two axes of such an array hold, by the symmetry that only alpha_x and alpha_y
+// give it: exchanging them with x and y and phi with 90 degrees - phi gives the same matrix. Of the
+// published tables, one differs from its image by 0.2 % of a matrix in the median, the other by
+// half of it. Tables that can have no such symmetry (node counts that differ, one node along phi or
+// alpha) are alpha_lambda.
+Layout layout_of(const Table& table);
 
 }  // namespace ltc

@@ -32,11 +32,11 @@ std::optional<std::string> texture_prefix(const std::filesystem::path& path) {
 
 }  // namespace
 
-Table read_table(const std::filesystem::path& path) {
+Table read_table(const std::filesystem::path& path, std::optional<Layout> layout) {
   if (path.extension() == ".h5")
     return read_hdf5(path);
   if (path.extension() == ".npy")
-    return read_npy(path);
+    return read_npy(path, layout);
   if (const auto prefix = texture_prefix(path))
     return read_exr(*prefix);
   throw InputError(fmt::format(

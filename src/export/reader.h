@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "table/table.h"
@@ -11,8 +12,9 @@
 namespace ltc {
 
 // By suffix: .h5, .npy, or one of the three textures <name>.0.exr to <name>.2.exr, which brings in
-// the other two. Throws InputError for another suffix, and as the format's own reader.
-Table read_table(const std::filesystem::path& path);
+// the other two. `layout` is for files without axes, .npy (see read_npy); others say what they
+// hold. Throws InputError for another suffix, and as the format's own reader.
+Table read_table(const std::filesystem::path& path, std::optional<Layout> layout = std::nullopt);
 
 // All files that read_table reads for this one: the three textures, or the file alone.
 std::vector<std::filesystem::path> files_of_table(const std::filesystem::path& path);

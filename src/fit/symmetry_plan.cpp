@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "table/symmetry.h"
@@ -33,6 +34,16 @@ std::vector<PlannedEntry> plan_by_symmetry(const Grid& grid, const std::vector<b
       plan[flat].turn_radians = lobe.phi_radians - grid.lobe(grid.node(representative)).phi_radians;
   }
   return plan;
+}
+
+std::vector<std::size_t> each_lobe_once(const Grid& grid, const std::vector<std::size_t>& entries) {
+  const std::vector<PlannedEntry> plan = plan_by_symmetry(grid);
+  std::set<std::size_t> seen;
+  std::vector<std::size_t> result;
+  for (const std::size_t flat : entries)
+    if (seen.insert(plan[flat].representative).second)
+      result.push_back(flat);
+  return result;
 }
 
 Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double radians) {

@@ -29,6 +29,9 @@ std::vector<PlannedEntry> plan_by_symmetry(const Grid& grid);
 // entry of its lobe, the others have none.
 std::vector<PlannedEntry> plan_by_symmetry(const Grid& grid, const std::vector<bool>& needed);
 
+// Of entries in any order, those that no earlier one has the lobe of, turned or not.
+std::vector<std::size_t> each_lobe_once(const Grid& grid, const std::vector<std::size_t>& entries);
+
 // R M R^-1 with R the rotation about z: the matrix of the lobe turned by `radians`.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double radians);
 

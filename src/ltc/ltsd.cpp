@@ -110,4 +110,12 @@ double LinearlyTransformed::integrate_polygon(std::span<const Eigen::Vector3d> v
   return inverse_determinant_ < 0 ? -integral : integral;
 }
 
+double share_below_horizon(const Eigen::Matrix3d& matrix) {
+  const Eigen::RowVector3d up = matrix.row(2);
+  const double across = std::hypot(up.x(), up.y()), length = std::hypot(across, up.z());
+  // (1 - cos(gamma))/2 is sin^2(gamma)/2/(1 + cos(gamma)), which keeps the digits of a small share.
+  const double cosine = up.z() / length, sine = across / length;
+  return cosine < 0 ? (1 - cosine) / 2 : sine * sine / (2 * (1 + cosine));
+}
+
 }  // namespace ltc

@@ -50,4 +50,10 @@ class LinearlyTransformed {
   Original original_;
 };
 
+// The share of a clamped cosine's transform by M that lies below the horizon z = 0, exact: the
+// directions that M takes above it are a half-space about its third row, and over the part of a
+// hemisphere within gamma of its pole's half-space the cosine integrates to (1 + cos(gamma))/2. M
+// as above; NaN where its third row is zero.
+double share_below_horizon(const Eigen::Matrix3d& matrix);
+
 }  // namespace ltc

@@ -9,7 +9,6 @@
 #include "align/align.h"
 #include "brdf/albedo.h"
 #include "core/parallel.h"
-#include "core/platform.h"
 #include "core/version.h"
 #include "fit/fit_table.h"
 #include "pipeline/post_process.h"
@@ -131,7 +130,6 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
   table.seed = config.fit.seed;
   table.config = to_toml(config);
   table.generator = generator();
-  table.created = platform::utc_now_iso8601();
 
   result.fits = representative_count(plan_by_symmetry(config.grid, needed));
   result.fits_of_whole_grid = representative_count(plan_by_symmetry(config.grid));
@@ -142,8 +140,10 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
   finish_stage("align");
   post_process_all(config.grid, entries, table, result);
   finish_stage("post-process");
+  table.refined = false;
   if (config.refine.steps > 0 && result.fits > 0) {
     result.refine = refine_nodes(config, context, threads, progress, table);
+    table.refined = result.refine->kept;
     finish_stage("refine");
   }
   integrate_albedos(config.grid, needed, threads, progress, table);

@@ -65,7 +65,7 @@ StoredLobe stored_entry(const Table& table, std::size_t flat, const Progress* pr
 }
 
 StoredLobe stored_query(const Table& table, const GgxLobe& lobe, const Progress* progress) {
-  const GgxLobe folded = fold(lobe).lobe;
+  const GgxLobe folded = fold(table.grid, lobe).lobe;
   const Interpolation taken = interpolation(table.grid, folded);
   StoredLobe stored;
   stored.lobe = lobe;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/symmetry_plan.h"
+
 namespace ltc {
 
 TableSummary summarize(const Table& table, std::size_t worst_count) {
@@ -30,8 +32,8 @@ TableSummary summarize(const Table& table, std::size_t worst_count) {
   summary.mean_loss = sum / static_cast<double>(falling.size());
   summary.p95_loss = static_cast<double>(table.sw_loss[falling[above_p95]]);
   summary.largest_loss = static_cast<double>(table.sw_loss[falling.front()]);
-  falling.resize(std::min(falling.size(), worst_count));
-  summary.worst = std::move(falling);
+  summary.worst = each_lobe_once(table.grid, falling);
+  summary.worst.resize(std::min(summary.worst.size(), worst_count));
   return summary;
 }
 

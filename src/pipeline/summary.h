@@ -17,7 +17,8 @@ struct TableSummary {
   double mean_loss = 0;    // sliced-Wasserstein; all 0 if nothing was judged
   double p95_loss = 0;     // the least loss that 95 % of the judged do not exceed
   double largest_loss = 0;
-  std::vector<std::size_t> worst;  // flat indices by falling loss, at most as many as asked for
+  // Flat indices by falling loss, at most as many as asked for, each lobe once.
+  std::vector<std::size_t> worst;
 };
 
 // Entries of equal loss stand in the order of the grid.

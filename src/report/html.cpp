@@ -139,18 +139,22 @@ std::string verdict(Verdict verdict) {
 }
 
 std::string table(const Table& table) {
-  const auto row = [&](const std::vector<std::string>& cells, const char* tag) {
+  const auto row = [&](const std::vector<std::string>& cells, const char* tag, bool named) {
     std::string html = "<tr>";
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const bool number = i >= table.first_number && i < table.end_number;
-      html += fmt::format("<{}{}>{}</{}>", tag, number ? " class=\"number\"" : "", cells[i], tag);
+      // What the head says, for screens too narrow for a head.
+      const std::string head =
+          named && !table.head[i].empty() ? fmt::format(" data-head=\"{}\"", table.head[i]) : "";
+      html += fmt::format("<{}{}{}>{}</{}>", tag, number ? " class=\"number\"" : "", head, cells[i],
+                          tag);
     }
     return html + "</tr>\n";
   };
   std::string html =
-      "<div class=\"wide\"><table>\n<thead>" + row(table.head, "th") + "</thead>\n<tbody>\n";
+      "<div class=\"wide\"><table>\n<thead>" + row(table.head, "th", false) + "</thead>\n<tbody>\n";
   for (const std::vector<std::string>& cells : table.rows)
-    html += row(cells, "td");
+    html += row(cells, "td", true);
   return html + "</tbody></table></div>\n";
 }
 

@@ -23,8 +23,8 @@ std::string figure(const picture::Canvas& picture, std::string_view text,
 enum class Verdict { passed, failed, not_checked };
 std::string verdict(Verdict verdict);
 
-// A table of cells that are HTML already. Columns from `first_number` to before `end_number` hold
-// numbers and are set to the right.
+// A table of cells that are HTML already, as is its head; on narrow screens its rows are lists.
+// Columns from `first_number` to before `end_number` hold numbers and are set to the right.
 struct Table {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;

@@ -75,6 +75,19 @@ figcaption { font-size: 14px; margin-top: 6px; }
   gap: 16px; }
 .pair figure { margin: 0; }
 summary { cursor: pointer; color: var(--faint); }
+@media (max-width: 640px) {
+  main { padding: 20px 14px 48px; }
+  table { min-width: 0; }
+  thead { display: none; }
+  table, tbody, tr, td { display: block; }
+  tr { border-bottom: 1px solid var(--line); padding: 8px 0; }
+  td { border: 0; padding: 1px 0; text-align: left; white-space: normal; overflow-wrap: anywhere; }
+  td.number { text-align: left; white-space: normal; }
+  td:first-child { font-weight: 600; }
+  td:empty { display: none; }
+  td[data-head]:not(:first-child)::before { content: attr(data-head); display: inline-block;
+    min-width: 8em; padding-right: 10px; color: var(--faint); }
+}
 @media print { main { max-width: none; } h2 { break-after: avoid; } figure { break-inside: avoid; } }
 )css";
 

@@ -32,15 +32,15 @@ std::string tile(const std::string& value, std::string_view what, std::string_vi
 }
 
 html::Verdict verdict_of(const InvariantResult& result) {
-  return !result.checked ? html::Verdict::not_checked
-         : result.passed ? html::Verdict::passed
-                         : html::Verdict::failed;
+  return !result.passed                      ? html::Verdict::failed
+         : !result.checked || !result.judged ? html::Verdict::not_checked
+                                             : html::Verdict::passed;
 }
 
 html::Verdict verdict_of(const ThresholdCheck& check) {
-  return std::isnan(check.value) ? html::Verdict::not_checked
-         : check.passed          ? html::Verdict::passed
-                                 : html::Verdict::failed;
+  return !check.passed                                      ? html::Verdict::failed
+         : std::isnan(check.value) || !check.reason.empty() ? html::Verdict::not_checked
+                                                            : html::Verdict::passed;
 }
 
 std::string sentence(const Validation& validation) {
@@ -66,19 +66,22 @@ std::string header(const Validation& validation) {
     made += ", " + table.created;
   return fmt::format(
              "<h1>{}</h1>\n<p class=\"faint\">{} × {} × {} × {} entries over α, λ, θ, φ, "
-             "storage {}{}</p>\n",
+             "storage {}{}</p>\n<p class=\"faint\">{}</p>\n",
              escaped(validation.file), shape[0], shape[1], shape[2], shape[3],
-             storage_name(table.storage), escaped(made)) +
+             storage_name(table.storage), escaped(made), escaped(kind_text(table))) +
          sentence(validation);
 }
 
 std::string tiles(const Validation& validation) {
   const QualityReport& quality = validation.quality.value();
-  const auto passed =
-      std::count_if(validation.invariants.begin(), validation.invariants.end(),
-                    [](const InvariantResult& result) { return result.checked && result.passed; });
+  const auto passed = std::count_if(validation.invariants.begin(), validation.invariants.end(),
+                                    [](const InvariantResult& result) {
+                                      return result.checked && result.judged && result.passed;
+                                    });
   const auto checked = std::count_if(validation.invariants.begin(), validation.invariants.end(),
-                                     [](const InvariantResult& result) { return result.checked; });
+                                     [](const InvariantResult& result) {
+                                       return (result.checked && result.judged) || !result.passed;
+                                     });
   return "<div class=\"tiles\">\n" +
          tile(number(quality.query_losses.mean, 3), "loss between nodes",
               fmt::format("± {}, floor {}", number(quality.query_losses.standard_error, 3),
@@ -86,8 +89,8 @@ std::string tiles(const Validation& validation) {
          tile(number(quality.area_light.mean, 4), "error under area lights",
               fmt::format("± {}, floor {}", number(quality.area_light.standard_error, 4),
                           number(quality.floor_area_light.mean, 4))) +
-         tile(number(quality.nodes.mean, 3), "loss at nodes",
-              fmt::format("largest {}", number(quality.nodes.largest, 3))) +
+         tile(number(quality.nodes.p50, 3), "median loss at nodes",
+              fmt::format("95 % below {}", number(quality.nodes.p95, 3))) +
          tile(fmt::format("{} of {}", passed, checked), "invariants hold",
               fmt::format("{} entries without values", quality.nodes_without_values)) +
          "</div>\n<p class=\"faint\">Losses are shares of the lobe's spread: 0 is the GGX lobe "
@@ -106,19 +109,20 @@ std::string checks(const Validation& validation) {
     const bool one_is_worst = judged && !(result.passed && result.value == 0);
     invariants.rows.push_back(
         {escaped(result.name), judged ? short_number(result.value) : "–",
-         result.checked && !result.has_worst
-             ? "–"
-             : fmt::format("{} {:.4g}", result.at_most ? "at most" : "above", result.limit),
-         html::verdict(verdict_of(result)),
-         one_is_worst ? fmt::format("<code>{}</code> <span class=\"faint\">{}</span>",
-                                    entry_text(grid, result.worst), lobe_text(grid, result.worst))
-                      : ""});
+         judged ? allowed_text(result) : "–", html::verdict(verdict_of(result)),
+         !result.checked ? fmt::format("<span class=\"faint\">{}</span>", escaped(result.reason))
+         : one_is_worst  ? fmt::format("<code>{}</code> <span class=\"faint\">{}</span>",
+                                       entry_text(grid, result.worst), lobe_text(grid, result.worst))
+                         : ""});
   }
   html::Table thresholds{{"threshold", "table", "allowed", "", "key"}, {}, 1, 3};
   for (const ThresholdCheck& check : validation.thresholds)
     thresholds.rows.push_back(
-        {escaped(check.what), short_number(check.value), fmt::format("at most {:.4g}", check.limit),
-         html::verdict(verdict_of(check)), fmt::format("<code>{}</code>", escaped(check.key))});
+        {escaped(check.what), check.reason.empty() ? short_number(check.value) : "–",
+         check.reason.empty() ? fmt::format("at most {:.4g}", check.limit) : "–",
+         html::verdict(verdict_of(check)),
+         fmt::format("<code>{}</code> <span class=\"faint\">{}</span>", escaped(check.key),
+                     escaped(check.reason))});
   return "<h2>Checks</h2>\n" + html::table(invariants) + html::table(thresholds);
 }
 
@@ -155,7 +159,10 @@ std::string figures(const QualityReport& quality) {
       figures_row("the same, floor", quality.floor_losses, 4),
       figures_row("error under area lights, shape alone", quality.area_light, 4),
       figures_row("the same, with the table's amplitude", quality.area_light_with_amplitude, 4),
-      figures_row("the same, floor", quality.floor_area_light, 4)};
+      figures_row("the same, floor", quality.floor_area_light, 4),
+      figures_row("share below the horizon at nodes", quality.nodes_below_horizon, 4),
+      figures_row("share below the horizon between nodes", quality.below_horizon, 4),
+      figures_row("the same, floor", quality.floor_below_horizon, 4)};
   return "<h2>Quality</h2>\n" + html::table(table) +
          fmt::format(
              "<p>{} random queries.{} Errors under area lights are shares of the light that "
@@ -235,6 +242,14 @@ std::string how(const Validation& validation) {
 }
 
 }  // namespace
+
+std::string kind_text(const Table& table) {
+  const std::string bits = table.precision == Precision::half ? "16-bit values, " : "";
+  if (!table.refined)
+    return bits +
+           "refined: unknown, the file does not say; judged by limits that hold for both kinds";
+  return bits + (*table.refined ? "refined for what lies between the nodes" : "not refined");
+}
 
 bool is_sound(const Validation& validation) {
   return std::all_of(validation.invariants.begin(), validation.invariants.end(),

@@ -25,6 +25,9 @@ struct Validation {
   std::vector<ThresholdCheck> thresholds;
 };
 
+// What the limits of a table depend on, in one line: whether it was refined, and its precision.
+std::string kind_text(const Table& table);
+
 // Whether every invariant holds and no threshold is passed.
 bool is_sound(const Validation& validation);
 

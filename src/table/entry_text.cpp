@@ -16,9 +16,11 @@ std::string entry_text(const Grid& grid, std::size_t flat) {
 std::string lobe_text(const Grid& grid, std::size_t flat) {
   constexpr double degrees = 180 / std::numbers::pi;
   const NodeIndex node = grid.node(flat);
-  return fmt::format("alpha {:.3f}, lambda {:.3f}, theta {:.1f}, phi {:.1f}",
-                     grid.alpha.nodes[node.alpha], grid.lambda.nodes[node.lambda],
-                     grid.theta.nodes[node.theta] * degrees, grid.phi.nodes[node.phi] * degrees);
+  const bool both = grid.layout == Layout::alphax_alphay;
+  return fmt::format("{} {:.3f}, {} {:.3f}, theta {:.1f}, phi {:.1f}", both ? "alpha_x" : "alpha",
+                     grid.alpha.nodes[node.alpha], both ? "alpha_y" : "lambda",
+                     grid.lambda.nodes[node.lambda], grid.theta.nodes[node.theta] * degrees,
+                     grid.phi.nodes[node.phi] * degrees);
 }
 
 }  // namespace ltc

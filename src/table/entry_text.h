@@ -13,6 +13,7 @@ namespace ltc {
 // "3,0,7,4": the node's indices, as `ltcfit fit --entry` takes them.
 std::string entry_text(const Grid& grid, std::size_t flat);
 
+// "alpha_x 0.429, alpha_y 0.143, …" with layout alphax_alphay.
 // "alpha 0.429, lambda 0.000, theta 90.0, phi 51.4", angles in degrees.
 std::string lobe_text(const Grid& grid, std::size_t flat);
 

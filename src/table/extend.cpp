@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "core/angle.h"
@@ -51,6 +52,13 @@ std::string config_with_history(const Table& existing, const Table& additions) {
                        existing.config.substr(additions.config.size()));
   return fmt::format("{}\n{}", additions.config,
                      commented(fmt::format("{}, of this config:\n{}", whence, existing.config)));
+}
+
+// Of two that may not be known.
+std::optional<bool> either(std::optional<bool> a, std::optional<bool> b) {
+  if (a == true || b == true)
+    return true;
+  return a && b ? std::optional(false) : std::nullopt;
 }
 
 template <typename T>
@@ -108,6 +116,7 @@ Table extended(const Table& existing, const Table& additions) {
   if (!adds)
     return existing;
   result.config = config_with_history(existing, additions);
+  result.refined = either(existing.refined, additions.refined);
   return result;
 }
 

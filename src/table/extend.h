@@ -24,8 +24,8 @@ std::vector<bool> lacking_entries(const Table& existing, const std::vector<bool>
 //
 // Seed, config, generator and time are those of `additions`, the run that made the file; its config
 // is followed by those of the entries kept, in comments, so that it still reads as TOML. Extended
-// time and again, a table carries its whole history there. If `additions` adds nothing, the result
-// is `existing`, with all that it says.
+// time and again, a table carries its whole history there. It is refined where either is. If
+// `additions` adds nothing, the result is `existing`, with all that it says.
 Table extended(const Table& existing, const Table& additions);
 
 }  // namespace ltc

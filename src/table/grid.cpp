@@ -7,6 +7,10 @@
 
 namespace ltc {
 
+std::string_view layout_name(Layout layout) {
+  return layout == Layout::alphax_alphay ? "alphax-alphay" : "alpha-lambda";
+}
+
 Grid Grid::paper(std::size_t nodes_per_axis) {
   return paper({nodes_per_axis, nodes_per_axis, nodes_per_axis, nodes_per_axis});
 }
@@ -38,10 +42,11 @@ NodeIndex Grid::node(std::size_t flat) const {
 }
 
 GgxLobe Grid::lobe(const NodeIndex& node) const {
-  const double larger = alpha.nodes[node.alpha];
+  const double larger = alpha.nodes[node.alpha];  // of the two, or alpha_x
   GgxLobe lobe;
   lobe.alpha_x = std::max(larger, alpha_min);
-  lobe.alpha_y = std::max(lambda.nodes[node.lambda] * larger, alpha_min);
+  const double second = lambda.nodes[node.lambda];
+  lobe.alpha_y = std::max(layout == Layout::alphax_alphay ? second : second * larger, alpha_min);
   lobe.theta_radians = theta.nodes[node.theta];
   lobe.phi_radians = phi.nodes[node.phi];
   return lobe;

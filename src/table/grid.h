@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 #include "brdf/ggx.h"
 #include "table/axis.h"
@@ -17,10 +18,19 @@ struct NodeIndex {
   bool operator==(const NodeIndex&) const = default;
 };
 
+// What the first two axes hold.
+enum class Layout {
+  alpha_lambda,   // the larger roughness, and the ratio of the smaller to it
+  alphax_alphay,  // both roughnesses; read only, of the other published table
+};
+// "alpha-lambda", "alphax-alphay".
+std::string_view layout_name(Layout layout);
+
 // Axes: alpha is the larger roughness, lambda the ratio of the smaller to the larger, theta and phi
 // the view direction in radians. alpha_x = max(alpha, alpha_min), alpha_y = max(lambda alpha,
-// alpha_min).
+// alpha_min). With layout alphax_alphay, alpha is the axis of alpha_x and lambda that of alpha_y.
 struct Grid {
+  Layout layout = Layout::alpha_lambda;
   Axis alpha, lambda, theta, phi;
   double alpha_min = 1e-4;
 

@@ -39,6 +39,14 @@ FoldedAzimuth fold_azimuth(double phi_radians) {
   return {full_turn - phi, 1, -1};
 }
 
+// Equation (13) alone.
+FoldedLobe mirrored(const GgxLobe& lobe) {
+  const FoldedAzimuth azimuth = fold_azimuth(lobe.phi_radians);
+  FoldedLobe folded{lobe, Eigen::Vector3d(azimuth.sign_x, azimuth.sign_y, 1).asDiagonal()};
+  folded.lobe.phi_radians = azimuth.phi_radians;
+  return folded;
+}
+
 // Where a value stands between two neighbouring nodes of an axis.
 struct Bracket {
   std::array<std::size_t, 2> nodes;
@@ -61,6 +69,11 @@ double roughness_ratio(const GgxLobe& folded) {
   return folded.alpha_x == 0 ? 1.0 : folded.alpha_y / folded.alpha_x;
 }
 
+// Where a folded lobe stands on the second axis.
+double second_roughness(const Grid& grid, const GgxLobe& folded) {
+  return grid.layout == Layout::alphax_alphay ? folded.alpha_y : roughness_ratio(folded);
+}
+
 bool within(const Axis& axis, double value) {
   constexpr double no_matter = 1e-3;
   return value >= axis.first() - no_matter && value <= axis.last() + no_matter;
@@ -75,13 +88,15 @@ GgxLobe bounded_below(GgxLobe lobe, double alpha_min) {
 
 }  // namespace
 
+FoldedLobe fold(const Grid& grid, const GgxLobe& lobe) {
+  return grid.layout == Layout::alphax_alphay ? mirrored(lobe) : fold(lobe);
+}
+
 FoldedLobe fold(const GgxLobe& lobe) {
-  const FoldedAzimuth azimuth = fold_azimuth(lobe.phi_radians);
-  FoldedLobe folded{lobe, Eigen::Vector3d(azimuth.sign_x, azimuth.sign_y, 1).asDiagonal()};
-  folded.lobe.phi_radians = azimuth.phi_radians;
+  FoldedLobe folded = mirrored(lobe);
   if (lobe.alpha_y > lobe.alpha_x) {
     std::swap(folded.lobe.alpha_x, folded.lobe.alpha_y);
-    folded.lobe.phi_radians = quarter_turn - azimuth.phi_radians;
+    folded.lobe.phi_radians = quarter_turn - folded.lobe.phi_radians;
     // Equation (14) stands inside equation (13), so the swap applies first: its columns swap here.
     folded.unfold.col(0).swap(folded.unfold.col(1));
   }
@@ -90,7 +105,7 @@ FoldedLobe fold(const GgxLobe& lobe) {
 
 Interpolation interpolation(const Grid& grid, const GgxLobe& folded) {
   const Bracket alpha = bracket(grid.alpha, folded.alpha_x);
-  const Bracket lambda = bracket(grid.lambda, roughness_ratio(folded));
+  const Bracket lambda = bracket(grid.lambda, second_roughness(grid, folded));
   const Bracket theta = bracket(grid.theta, folded.theta_radians);
   const Bracket phi = bracket(grid.phi, folded.phi_radians);
   Interpolation result;
@@ -105,12 +120,13 @@ Interpolation interpolation(const Grid& grid, const GgxLobe& folded) {
 }
 
 bool covers(const Grid& grid, const GgxLobe& folded) {
-  return within(grid.alpha, folded.alpha_x) && within(grid.lambda, roughness_ratio(folded)) &&
+  return within(grid.alpha, folded.alpha_x) &&
+         within(grid.lambda, second_roughness(grid, folded)) &&
          within(grid.theta, folded.theta_radians) && within(grid.phi, folded.phi_radians);
 }
 
 LookUp look_up(const Table& table, const GgxLobe& lobe) {
-  const FoldedLobe folded = fold(lobe);
+  const FoldedLobe folded = fold(table.grid, lobe);
   const Interpolation corners = interpolation(table.grid, folded.lobe);
   Eigen::Matrix3d stored = Eigen::Matrix3d::Zero();
   LookUp result{Eigen::Matrix3d::Zero(), 0, 0};

@@ -18,11 +18,16 @@ struct FoldedLobe {
 };
 FoldedLobe fold(const GgxLobe& lobe);
 
+// The lobe as a table of this grid is asked for it: with Layout::alphax_alphay, which has both
+// orders of the roughnesses, nothing is swapped, as that table's users do.
+FoldedLobe fold(const Grid& grid, const GgxLobe& lobe);
+
 // The 16 nodes (flat indices) about a folded lobe and their multilinear weights, which sum to 1. A
 // lobe outside the axes is clamped to them. The lobe stands at alpha = alpha_x and lambda =
 // alpha_y / alpha_x as given, below alpha_min too (lambda = 1 where both are 0): ask for a node by
 // the values of its axes, roughnesses alpha and lambda alpha, not by Grid::lobe's bounded ones. A
-// corner that plays no part has weight 0 and may be any node. NaN in, NaN weights out.
+// corner that plays no part has weight 0 and may be any node. NaN in, NaN weights out. With
+// Layout::alphax_alphay it stands at its alpha_x and alpha_y.
 struct Interpolation {
   std::array<std::size_t, 16> nodes;
   std::array<double, 16> weights;

@@ -5,10 +5,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "table/grid.h"
+#include "table/precision.h"
 #include "table/storage.h"
 
 namespace ltc {
@@ -34,6 +36,10 @@ struct Table {
   std::string config;     // the full effective TOML
   std::string generator;  // program, version, commit
   std::string created;    // UTC, ISO 8601
+  // Whether nodes were moved for the sake of what lies between them (fit/refine.h) and stayed so;
+  // nothing where that is not known.
+  std::optional<bool> refined;
+  Precision precision = Precision::single;  // of the file that it was read from
 
   // One value (nine for `stored`, row-major) an entry, in the grid's C order.
   std::vector<float> stored;     // S, third column of unit length; M itself with Storage::matrix

@@ -14,8 +14,10 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "export/consistency.h"
+#include "ltc/ltsd.h"
 #include "table/entry_text.h"
 #include "table/symmetry.h"
+#include "validate/half_precision.h"
 #include "validate/lobe_invariants.h"
 #include "validate/matrix_invariants.h"
 #include "validate/shader_inverse.h"
@@ -30,6 +32,7 @@ struct Measurement {
   std::string name;
   double limit = 0;
   bool at_most = true;
+  double largest = InvariantLimits::none;  // a limit so large excludes nothing
   std::vector<double> values;
   std::vector<bool> judged;
 
@@ -57,6 +60,9 @@ InvariantResult judge(const Grid& grid, const Measurement& measurement) {
   result.name = measurement.name;
   result.limit = measurement.limit;
   result.at_most = measurement.at_most;
+  result.judged = measurement.limit < measurement.largest;
+  if (!result.judged)
+    result.reason = "no limit is set";
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
     if (!measurement.judged[flat])
       continue;
@@ -72,19 +78,22 @@ InvariantResult judge(const Grid& grid, const Measurement& measurement) {
                    [&](std::size_t a, std::size_t b) { return measurement.worse(a, b); });
   result.passed = result.entries.empty();
   if (!result.passed)
-    result.message = fmt::format("{} of entry {} ({}) is {:.4g}, allowed {} {:.4g}", result.name,
+    result.message = fmt::format("{} of entry {} ({}) is {:.4g}, allowed {}", result.name,
                                  entry_text(grid, result.worst), lobe_text(grid, result.worst),
-                                 result.value, result.at_most ? "at most" : "above", result.limit);
+                                 result.value, result.judged ? allowed_text(result) : "any finite");
   return result;
 }
 
-InvariantResult not_in_file(std::string name, double limit) {
+InvariantResult not_checked(std::string name, double limit, std::string_view reason) {
   InvariantResult result;
   result.name = std::move(name);
   result.limit = limit;
   result.checked = false;
+  result.reason = reason;
   return result;
 }
+
+constexpr std::string_view not_in_file = "not in the file";
 
 // Of the whole table, not of entries.
 InvariantResult check_shapes(const Table& table) {
@@ -169,39 +178,45 @@ class Checks {
   }
 
   InvariantResult alignment() const {
-    return judged("alignment", limits_.alignment_degrees, invertible_,
+    constexpr const char* name = "alignment";
+    constexpr double any_angle = 180;
+    if (limits_.alignment_degrees >= any_angle)
+      return not_checked(name, limits_.alignment_degrees, why_not_limited(table_));
+    return judged(name, limits_.alignment_degrees, invertible_,
                   [&](std::size_t flat) { return misalignment_degrees(table_.matrix_at(flat)); });
   }
 
   InvariantResult half_precision() const {
-    return judged("half precision", limits_.half_determinant, invertible_, [&](std::size_t flat) {
-      return half_determinant_change(table_.stored_at(flat));
-    });
+    constexpr const char* name = "half precision";
+    if (table_.precision == Precision::half)
+      return not_checked(name, limits_.half_error, "its values have 16 bits already");
+    return judged(name, limits_.half_error, invertible_,
+                  half_precision_errors(table_, invertible_, threads_, progress_));
   }
 
   InvariantResult inverse() const {
-    constexpr std::size_t samples = 512, directions = 8;
-    std::vector<double> errors(table_.grid.size(), nan);
-    parallel_for_each<InversionMeter>(
-        "inverses", errors.size(), threads_, progress_,
-        [] { return InversionMeter(samples, directions); },
-        [&](std::size_t flat, InversionMeter& meter) {
-          if (!invertible_[flat])
-            return;
-          const LobeFrame frame(lobe_at(flat));
-          errors[flat] = meter.error(
-              frame, table_.matrix_at(flat),
-              seen_by_shader(table_.storage, table_.stored_at(flat), frame, InverseOrder::factored,
-                             Precision::single, Precision::single));
-        });
+    const auto seen = [&](std::size_t flat, const LobeFrame& frame) {
+      return seen_by_shader(table_.storage, table_.stored_at(flat), frame, InverseOrder::factored,
+                            Precision::single, Precision::single);
+    };
     return judged("float inverse", limits_.inverse_error, invertible_,
-                  [&](std::size_t flat) { return errors[flat]; });
+                  inversion_errors(table_, invertible_, "inverses", threads_, progress_, seen));
+  }
+
+  InvariantResult below_horizon() const {
+    constexpr double whole_lobe = 1;
+    Measurement measurement("below horizon", limits_.below_horizon, true, invertible_);
+    measurement.largest = whole_lobe;
+    for (std::size_t flat = 0; flat < invertible_.size(); ++flat)
+      if (invertible_[flat])
+        measurement.values[flat] = share_below_horizon(table_.matrix_at(flat));
+    return judge(table_.grid, measurement);
   }
 
   InvariantResult albedo_range() const {
     const std::string name = "albedo range";
     if (!contents_.albedo)
-      return not_in_file(name, 0);
+      return not_checked(name, 0, not_in_file);
     return judged(name, 0, present_, [&](std::size_t flat) {
       const double amplitude = table_.amplitude[flat], fresnel = table_.fresnel[flat];
       return std::max({0.0, -fresnel, fresnel - amplitude, amplitude - 1});
@@ -211,7 +226,7 @@ class Checks {
   InvariantResult albedo_quadrature() const {
     const std::string name = "albedo quadrature";
     if (!contents_.albedo)
-      return not_in_file(name, limits_.albedo_error);
+      return not_checked(name, limits_.albedo_error, not_in_file);
     const AlbedoRule rule(static_cast<std::size_t>(limits_.albedo_points));
     std::vector<double> errors(table_.grid.size(), nan);
     parallel_for_each("albedo", errors.size(), threads_, progress_, [&](std::size_t flat) {
@@ -221,14 +236,13 @@ class Checks {
       errors[flat] = std::max(std::abs(table_.amplitude[flat] - albedo.amplitude),
                               std::abs(table_.fresnel[flat] - albedo.fresnel));
     });
-    return judged(name, limits_.albedo_error, present_,
-                  [&](std::size_t flat) { return errors[flat]; });
+    return judged(name, limits_.albedo_error, present_, std::move(errors));
   }
 
   InvariantResult loss() {
     const std::string name = "stored loss";
     if (!contents_.loss)
-      return not_in_file(name, limits_.loss_excess);
+      return not_checked(name, limits_.loss_excess, not_in_file);
     return judged(name, limits_.loss_excess, invertible_,
                   [&](std::size_t flat) { return lobes().loss_excess[flat]; });
   }
@@ -281,6 +295,14 @@ class Checks {
     return judge(table_.grid, measurement);
   }
 
+  // Values that were measured before.
+  InvariantResult judged(std::string name, double limit, const std::vector<bool>& entries,
+                         std::vector<double> values) const {
+    Measurement measurement(std::move(name), limit, true, entries);
+    measurement.values = std::move(values);
+    return judge(table_.grid, measurement);
+  }
+
   const Table& table_;
   const InvariantLimits& limits_;
   const int threads_;
@@ -293,6 +315,18 @@ class Checks {
 };
 
 }  // namespace
+
+std::string allowed_text(const InvariantResult& result) {
+  return result.judged
+             ? fmt::format("{} {:.4g}", result.at_most ? "at most" : "above", result.limit)
+             : "any";
+}
+
+std::string_view why_not_limited(const Table& table) {
+  if (!table.refined)
+    return "whether the table is refined is not known";
+  return *table.refined ? "nodes of a refined table serve the cells about them" : "no limit is set";
+}
 
 std::vector<InvariantResult> check_invariants(const Table& table, const InvariantLimits& limits,
                                               int threads, Progress* progress,
@@ -311,6 +345,7 @@ std::vector<InvariantResult> check_invariants(const Table& table, const Invarian
           checks.alignment(),
           checks.half_precision(),
           checks.inverse(),
+          checks.below_horizon(),
           checks.albedo_range(),
           checks.albedo_quadrature(),
           checks.loss(),

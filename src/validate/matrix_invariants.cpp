@@ -28,13 +28,4 @@ double misalignment_degrees(const Eigen::Matrix3d& matrix) {
   return std::abs(std::atan2(turn(1, 0), turn(0, 0))) / radians_per_degree;
 }
 
-double half_determinant_change(const Eigen::Matrix3d& stored) {
-  const Eigen::Matrix3d rounded = stored.unaryExpr(
-      [](double value) { return static_cast<double>(Eigen::half(static_cast<float>(value))); });
-  if (!rounded.allFinite())
-    return std::numeric_limits<double>::quiet_NaN();
-  const double determinant = stored.determinant();
-  return std::abs(rounded.determinant() - determinant) / std::abs(determinant);
-}
-
 }  // namespace ltc

@@ -16,8 +16,4 @@ double condition_number(const Eigen::Matrix3d& matrix);
 // 180, being a reflection away. M must have an inverse.
 double misalignment_degrees(const Eigen::Matrix3d& matrix);
 
-// Relative change of the determinant when the entries are rounded to IEEE half precision, nearest
-// even: 1 or more where it becomes zero or changes its sign, NaN where an entry does not fit.
-double half_determinant_change(const Eigen::Matrix3d& stored);
-
 }  // namespace ltc

@@ -15,6 +15,7 @@
 #include "core/random.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
+#include "ltc/ltsd.h"
 #include "validate/quality_summary.h"
 
 namespace ltc {
@@ -50,7 +51,7 @@ double relative_loss(HeldOutJudge judge, const GgxLobe& lobe, const Eigen::Matri
 
 QueryQuality left_out(QueryState state) {
   const AreaLightError none{nan, nan, nan};
-  return {state, nan, none, none};
+  return {state, nan, none, none, nan};
 }
 
 QueryQuality judge_query(const Table& table, const QualitySettings& settings,
@@ -60,7 +61,16 @@ QueryQuality judge_query(const Table& table, const QualitySettings& settings,
     return left_out(state);
   area_light.set_lobe(floor.lobe, query);
   return {QueryState::judged, relative_loss(query_judge(settings, query), floor.lobe, found.matrix),
-          area_light.error(found.matrix), area_light.error(found.matrix, found.amplitude)};
+          area_light.error(found.matrix), area_light.error(found.matrix, found.amplitude),
+          share_below_horizon(found.matrix)};
+}
+
+Statistics nodes_below_horizon(const Table& table) {
+  std::vector<double> shares(table.grid.size(), nan);
+  for (std::size_t flat = 0; flat < shares.size(); ++flat)
+    if (has_values(table.status[flat]))
+      shares[flat] = share_below_horizon(table.matrix_at(flat));
+  return statistics_of(shares);
 }
 
 // Which nodes are judged: all, or as many as the settings say, drawn without replacement.
@@ -117,9 +127,9 @@ AreaLightJudge area_light_judge(const QualitySettings& settings) {
 
 Answer ask(const Table& table, const GgxLobe& lobe) {
   const LookUp found = look_up(table, lobe);
-  const QueryState state = !covers(table.grid, fold(lobe).lobe) ? QueryState::outside
-                           : !found.matrix.allFinite()          ? QueryState::missing
-                                                                : QueryState::judged;
+  const QueryState state = !covers(table.grid, fold(table.grid, lobe).lobe) ? QueryState::outside
+                           : !found.matrix.allFinite()                      ? QueryState::missing
+                                                                            : QueryState::judged;
   return {state, found};
 }
 
@@ -173,6 +183,7 @@ QualityReport measure_quality(const Table& table, const QualitySettings& setting
   report.nodes_without_values = static_cast<std::size_t>(std::count_if(
       table.status.begin(), table.status.end(), [](Status s) { return !has_values(s); }));
   report.queries = judge_queries(table, settings, report.floors, threads, progress);
+  report.nodes_below_horizon = nodes_below_horizon(table);
   summarize_quality(report);
   return report;
 }

@@ -80,6 +80,7 @@ struct QueryQuality {
   // matrix without an inverse, and for a table without amplitudes.
   AreaLightError area_light;
   AreaLightError area_light_with_amplitude;
+  double below_horizon = 0;  // share of the LTC
 };
 
 // The judged queries of one range of a parameter, first <= parameter < last.
@@ -107,6 +108,8 @@ struct QualityReport {
   std::size_t queries_singular = 0;  // judged, but their matrix has no inverse
   // Over the judged queries; indices are those of `queries`.
   Statistics query_losses, floor_losses;
+  // Shares of LTCs below the horizon: of all nodes with values, of the queries, of their fits.
+  Statistics nodes_below_horizon, below_horizon, floor_below_horizon;
   Statistics area_light, area_light_with_amplitude, floor_area_light;
   double area_light_noise = 0;  // standard error of a rectangle's sampled share, root mean square
   double area_light_mean_noise = 0;  // its part in the means: noise / sqrt(queries * quads)

@@ -11,6 +11,7 @@
 
 #include "core/angle.h"
 #include "core/shell_quoted.h"
+#include "ltc/ltsd.h"
 
 namespace ltc {
 namespace {
@@ -153,6 +154,10 @@ void summarize_quality(QualityReport& report) {
       statistics_of(of_judged(report, [&](auto i) { return queries[i].relative_loss; }));
   report.floor_losses =
       statistics_of(of_judged(report, [&](auto i) { return floors[i].relative_loss; }));
+  report.below_horizon =
+      statistics_of(of_judged(report, [&](auto i) { return queries[i].below_horizon; }));
+  report.floor_below_horizon = statistics_of(
+      of_judged(report, [&](auto i) { return share_below_horizon(floors[i].matrix); }));
   report.area_light =
       statistics_of(of_judged(report, [&](auto i) { return queries[i].area_light.mean_absolute; }));
   report.area_light_with_amplitude = statistics_of(of_judged(
@@ -167,7 +172,10 @@ void summarize_quality(QualityReport& report) {
 std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
                                              const QualityThresholds& thresholds) {
   const auto check = [](const char* key, const char* what, double value, double limit) {
-    return ThresholdCheck{key, what, value, limit, std::isnan(value) || value <= limit};
+    ThresholdCheck result{key, what, value, limit, std::isnan(value) || value <= limit, ""};
+    if (limit >= QualityThresholds::none)
+      result.reason = "no limit is set";
+    return result;
   };
   return {check("quality.node_loss", "mean relative loss at nodes", report.nodes.mean,
                 thresholds.node_loss),

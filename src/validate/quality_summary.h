@@ -15,6 +15,8 @@ void summarize_quality(QualityReport& report);
 
 // The largest means that a table may have; each is compared with what the report has by that name.
 struct QualityThresholds {
+  static constexpr double none = 1e300;  // no limit
+
   double node_loss = 0.07;
   double query_loss = 0.13;
   double area_light_error = 0.026;
@@ -28,6 +30,7 @@ struct ThresholdCheck {
   double value = 0;  // NaN where nothing could be judged
   double limit = 0;
   bool passed = true;  // so does what could not be judged
+  std::string reason;  // why no limit is set, in words, for whoever knows; empty where one is
 };
 std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
                                              const QualityThresholds& thresholds);

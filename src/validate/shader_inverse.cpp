@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace ltc {
 namespace {
@@ -127,9 +128,7 @@ std::string_view inverse_order_name(InverseOrder order) {
 Eigen::Matrix3d seen_by_shader(Storage storage, const Eigen::Matrix3d& stored,
                                const LobeFrame& frame, InverseOrder order, Precision memory,
                                Precision arithmetic) {
-  const Eigen::Matrix3d kept = memory == Precision::half
-                                   ? in_double<Eigen::half>(rounded<Eigen::half>(stored))
-                                   : in_double<float>(rounded<float>(stored));
+  const Eigen::Matrix3d kept = rounded(stored, memory);
   return arithmetic == Precision::half ? seen_in<Eigen::half>(storage, kept, frame, order)
                                        : seen_in<float>(storage, kept, frame, order);
 }
@@ -144,6 +143,22 @@ double InversionMeter::error(const LobeFrame& frame, const Eigen::Matrix3d& exac
   quantiles_.of_ltc(frame, exact, exact_.data());
   quantiles_.of_ltc(frame, seen, seen_.data());
   return quantiles_.distance(exact_.data(), seen_.data()) / quantiles_.spread(exact_.data());
+}
+
+std::vector<double> inversion_errors(
+    const Table& table, const std::vector<bool>& judged, std::string_view stage, int threads,
+    Progress* progress, const std::function<Eigen::Matrix3d(std::size_t, const LobeFrame&)>& seen) {
+  constexpr std::size_t samples = 512, directions = 8;
+  std::vector<double> errors(table.grid.size(), nan);
+  parallel_for_each<InversionMeter>(
+      stage, errors.size(), threads, progress, [] { return InversionMeter(samples, directions); },
+      [&](std::size_t flat, InversionMeter& meter) {
+        if (!judged[flat])
+          return;
+        const LobeFrame frame(table.grid.lobe(table.grid.node(flat)));
+        errors[flat] = meter.error(frame, table.matrix_at(flat), seen(flat, frame));
+      });
+  return errors;
 }
 
 }  // namespace ltc

@@ -6,16 +6,16 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <string_view>
 #include <vector>
 
+#include "core/progress.h"
 #include "fit/lobe_frame.h"
-#include "table/storage.h"
+#include "table/table.h"
 #include "validate/lobe_quantiles.h"
 
 namespace ltc {
-
-enum class Precision { single, half };
 
 // With M = F S A, F = Q or 1 and A = diag(alpha_x, alpha_y, 1) as the storage says (storage.h).
 enum class InverseOrder {
@@ -53,5 +53,11 @@ class InversionMeter {
   LobeQuantiles quantiles_;
   std::vector<float> exact_, seen_;
 };
+
+// That error at every entry of a table that is `judged`, NaN at the others; `seen` makes the matrix
+// that is seen there. The same bits for any number of threads. Throws Interrupted.
+std::vector<double> inversion_errors(
+    const Table& table, const std::vector<bool>& judged, std::string_view stage, int threads,
+    Progress* progress, const std::function<Eigen::Matrix3d(std::size_t, const LobeFrame&)>& seen);
 
 }  // namespace ltc

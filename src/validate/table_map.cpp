@@ -23,8 +23,9 @@ picture::MapAxis map_axis(const char* title, const Axis& axis, double unit, cons
 picture::TiledMap table_map(const Grid& grid, const std::vector<double>& values,
                             picture::ColorScale colors) {
   picture::TiledMap map{.colors = std::move(colors)};
-  map.tile_rows = map_axis("α", grid.alpha, 1, "");
-  map.tile_columns = map_axis("λ", grid.lambda, 1, "");
+  const bool both = grid.layout == Layout::alphax_alphay;
+  map.tile_rows = map_axis(both ? "αx" : "α", grid.alpha, 1, "");
+  map.tile_columns = map_axis(both ? "αy" : "λ", grid.lambda, 1, "");
   map.rows = map_axis("θ", grid.theta, radians_per_degree, "°");
   map.columns = map_axis("φ", grid.phi, radians_per_degree, "°");
   map.values.assign(values.begin(), values.end());

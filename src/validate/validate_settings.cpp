@@ -2,19 +2,20 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "validate/validate_settings.h"
 
+#include <algorithm>
+
 #include "config/key.h"
 #include "config/reader.h"
 
 namespace ltc {
 namespace {
 
-using config::below;
 using config::key;
 using config::Range;
 using Key = config::KeyOf<ValidateSettings>;
 using S = ValidateSettings;
 
-constexpr double unbounded = 1e300;
+constexpr double unbounded = InvariantLimits::none;
 
 // One line a key: its name, the member it sets, what is allowed, what it means. A new section is a
 // function like this one, and a line in keys().
@@ -26,8 +27,9 @@ std::vector<Key> invariant_keys() {
       key("invariants.upward_difference", [](S& s) { return &s.invariants.upward_difference; }, Range{0, unbounded}, "largest difference between values at theta = 0 that differ in phi alone"),
       key("invariants.unit_length", [](S& s) { return &s.invariants.unit_length; }, Range{0, unbounded}, "largest deviation of a third column's length from 1"),
       key("invariants.alignment_degrees", [](S& s) { return &s.invariants.alignment_degrees; }, Range{0, 180}, "largest angle by which alignment would turn a matrix further"),
-      key("invariants.half_determinant", [](S& s) { return &s.invariants.half_determinant; }, below(0, 1), "largest relative change of a determinant by rounding to half precision"),
+      key("invariants.half_error", [](S& s) { return &s.invariants.half_error; }, Range{0, unbounded}, "largest distance of a lobe to that of its matrix in half precision, over its spread"),
       key("invariants.inverse_error", [](S& s) { return &s.invariants.inverse_error; }, Range{0, unbounded}, "largest distance of a lobe to the one of a single-precision inverse, over its spread"),
+      key("invariants.below_horizon", [](S& s) { return &s.invariants.below_horizon; }, Range{0, 1}, "largest share of a lobe below the horizon"),
       key("invariants.albedo_error", [](S& s) { return &s.invariants.albedo_error; }, Range{0, 1}, "largest error of amplitude and Fresnel against fresh quadrature"),
       key("invariants.loss_excess", [](S& s) { return &s.invariants.loss_excess; }, Range{0, unbounded}, "largest loss of a lobe over the stored one"),
       key("invariants.neighbour_excess", [](S& s) { return &s.invariants.neighbour_excess; }, Range{0, unbounded}, "largest jump between neighbours over that of GGX"),
@@ -68,6 +70,39 @@ const std::vector<Key>& keys() {
   return all;
 }
 
+constexpr double InvariantLimits::*invariant_limits[] = {
+    &InvariantLimits::condition_number,  &InvariantLimits::zero,
+    &InvariantLimits::upward_difference, &InvariantLimits::unit_length,
+    &InvariantLimits::alignment_degrees, &InvariantLimits::half_error,
+    &InvariantLimits::inverse_error,     &InvariantLimits::below_horizon,
+    &InvariantLimits::albedo_error,      &InvariantLimits::loss_excess,
+    &InvariantLimits::neighbour_excess,  &InvariantLimits::neighbour_slack};
+constexpr double QualityThresholds::*thresholds[] = {&QualityThresholds::node_loss,
+                                                     &QualityThresholds::query_loss,
+                                                     &QualityThresholds::area_light_error};
+
+// No limit below that of `least`.
+void raise_to(ValidateSettings& settings, const ValidateSettings& least) {
+  for (const auto limit : invariant_limits)
+    settings.invariants.*limit = std::max(settings.invariants.*limit, least.invariants.*limit);
+  for (const auto limit : thresholds)
+    settings.thresholds.*limit = std::max(settings.thresholds.*limit, least.thresholds.*limit);
+}
+
+// What rounding alone does: 2^-11 of a value, a step of 1.4e-4 radians for a direction, which is
+// more than the width of the smoothest lobes. 0 for what it leaves alone.
+ValidateSettings rounding_to_half() {
+  ValidateSettings settings;
+  for (const auto limit : invariant_limits)
+    settings.invariants.*limit = 0;
+  settings.invariants.unit_length = 5e-4;
+  settings.invariants.alignment_degrees = 1;
+  settings.invariants.albedo_error = 5e-4;
+  settings.invariants.neighbour_slack = 3e-4;
+  settings.thresholds = {0.12, 0, 0};
+  return settings;
+}
+
 }  // namespace
 
 ValidateSettings settings_for_refined_tables() {
@@ -76,7 +111,17 @@ ValidateSettings settings_for_refined_tables() {
   settings.invariants.inverse_error = 0.1;
   settings.invariants.neighbour_excess = 10;
   settings.invariants.neighbour_slack = 0.05;
-  settings.thresholds = {5, 0.1, 0.018};
+  settings.thresholds = {unbounded, 0.1, 0.018};
+  return settings;
+}
+
+ValidateSettings settings_for(const Table& table) {
+  ValidateSettings settings =
+      table.refined == false ? ValidateSettings{} : settings_for_refined_tables();
+  if (!table.refined)
+    raise_to(settings, ValidateSettings{});
+  if (table.precision == Precision::half)
+    raise_to(settings, rounding_to_half());
   return settings;
 }
 

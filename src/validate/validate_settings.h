@@ -27,6 +27,10 @@ struct ValidateSettings {
 // the nodes, but nodes that are no longer the best for their own lobes.
 ValidateSettings settings_for_refined_tables();
 
+// Those limits that the table's own precision and history allow: of a table of which it is not
+// known whether it was refined, the laxer of both; 16-bit values are off by their rounding.
+ValidateSettings settings_for(const Table& table);
+
 // `settings`, then what `file` says if there is one, then the overrides in order, as load_config.
 // Throws InputError and IoError as load_config does.
 ValidateSettings load_validate_settings(const std::optional<std::filesystem::path>& file,

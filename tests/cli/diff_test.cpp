@@ -234,13 +234,13 @@ TEST(Diff, TablesOfDifferentGridsAreComparedInUse) {
 
 TEST(Diff, SaysThatNodesOfARefinedTableAreNoFits) {
   const TemporaryDirectory folder;
-  const auto write = [&](const char* name, int steps) {
+  const auto write = [&](const char* name, bool refined) {
     Table table = example();
-    table.config = fmt::format("[refine]\nsteps = {}\n", steps);
+    table.refined = refined;
     write_hdf5(table, folder / name);
   };
-  write("refined.h5", 2);
-  write("fitted.h5", 0);
+  write("refined.h5", true);
+  write("fitted.h5", false);
   const auto text = [&](const char* a, const char* b) {
     return run_ltcfit(diff(a, b), folder.path()).out;
   };

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include "export/hdf5.h"
 #include "support/refused_run.h"
 #include "test_paths.h"
 
@@ -62,6 +63,64 @@ TEST(Generate, ReplacesAnOlderTable) {
       run_ltcfit(generate({"--output", folder.path().string()}), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(read_file(folder / "ltc.npy"), "old");
+}
+
+// Files of one name are of one table: what a run does not write is not left of another.
+TEST(Generate, RemovesFilesOfAnOlderTable) {
+  const TemporaryDirectory folder;
+  ASSERT_EQ(run_ltcfit(generate({}), folder.path()).exit_code, 0);
+  folder.write("out/other.npy", "of another name");
+  // On other axes there is no .npy, and textures are not asked for.
+  const std::vector<std::string> others = {"--set", "table.alpha.first=0.1", "--set",
+                                           "output.exr=false"};
+  const ProgramResult result = run_ltcfit(generate(others), folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(names_in(folder / "out"), (std::vector<std::string>{"ltc.h5", "other.npy"}));
+  for (const char* name : {"ltc.npy", "ltc.0.exr", "ltc.1.exr", "ltc.2.exr"})
+    EXPECT_NE(result.out.find(std::string("removed  out/") + name + ": of an older table\n"),
+              std::string::npos)
+        << result.out;
+  // Nothing is left to remove.
+  EXPECT_EQ(run_ltcfit(generate(others), folder.path()).out.find("removed"), std::string::npos);
+}
+
+TEST(Generate, DoesNotRemoveWhatItReads) {
+  const TemporaryDirectory folder;
+  ASSERT_EQ(run_ltcfit(generate({}), folder.path()).exit_code, 0);
+  const std::vector<std::string> before = names_in(folder / "out");
+  for (const char* input : {"--extend", "--config"})
+    expect_error(
+        run_ltcfit(generate({input, "out/ltc.h5", "--set", "output.hdf5=false"}), folder.path()), 2,
+        {"out/ltc.h5", "would be removed", "output.name"});
+  EXPECT_EQ(names_in(folder / "out"), before);
+}
+
+TEST(Generate, MakesTheSameBytesAgainAtAGivenTime) {
+  const TemporaryDirectory folder;
+  const auto made_at = [&](const std::string& seconds, const std::string& output) {
+    std::vector<std::string> command = {"env", "SOURCE_DATE_EPOCH=" + seconds, LTCFIT_PROGRAM};
+    const std::vector<std::string> arguments = generate({"--output", output});
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return run_program(command, folder.path());
+  };
+  ASSERT_EQ(made_at("1700000000", "a").exit_code, 0);
+  ASSERT_EQ(made_at("1700000000", "b").exit_code, 0);
+  ASSERT_EQ(made_at("1700000001", "c").exit_code, 0);
+  EXPECT_EQ(read_file(folder / "a/ltc.h5"), read_file(folder / "b/ltc.h5"));
+  EXPECT_NE(read_file(folder / "a/ltc.h5"), read_file(folder / "c/ltc.h5"));
+  EXPECT_EQ(read_hdf5(folder / "a/ltc.h5").created, "2023-11-14T22:13:20Z");
+  for (const char* seconds : {"", "now", "1.5", "-1", "253402300800", "99999999999999999999"})
+    expect_error(made_at(seconds, "d"), 2, {"SOURCE_DATE_EPOCH", seconds, "[0, 253402300799]"});
+  EXPECT_FALSE(fs::exists(folder / "d"));
+}
+
+TEST(Generate, TellsWhat16BitsCost) {
+  const TemporaryDirectory folder;
+  const ProgramResult result =
+      run_ltcfit(generate({"--set", "output.exr_half=true"}), folder.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("half     16 bits "), std::string::npos) << result.out;
+  EXPECT_EQ(run_ltcfit(generate({}), folder.path()).out.find("half  "), std::string::npos);
 }
 
 TEST(Generate, ProgressStaysPlainWhereThereIsNoTerminal) {

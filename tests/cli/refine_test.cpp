@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "export/exr.h"
 #include "export/hdf5.h"
 #include "export/same_tables.h"
 #include "support/refused_run.h"
@@ -71,6 +72,27 @@ TEST(RefineProgram, BettersWhatLiesBetweenTheNodes) {
   const std::size_t moved = before.grid.flat({1, 1, 1, 1});
   EXPECT_NE(after.matrix_at(moved), before.matrix_at(moved));
   EXPECT_NE(after.sw_loss[moved], before.sw_loss[moved]);
+}
+
+// Only a refinement that was kept makes a table a refined one, whatever its config asks for.
+TEST(RefineProgram, FilesSayWhetherTheTableIsRefined) {
+  const TemporaryDirectory folder;
+  const auto refined = [&](const std::vector<std::string>& more, const std::string& words) {
+    const ProgramResult made = run_ltcfit(generate(more), folder.path());
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_NE(made.out.find(words), std::string::npos) << made.out;
+    EXPECT_EQ(read_exr(folder / "out/ltc").refined, read_hdf5(folder / "out/ltc.h5").refined);
+    return read_hdf5(folder / "out/ltc.h5").refined;
+  };
+  EXPECT_EQ(refined({"--set", "refine.steps=0"}, "entries "), false);
+  // So short a step betters nothing.
+  EXPECT_EQ(refined({"--set", "refine.steps=1", "--set", "refine.damping=1e6", "--set",
+                     "refine.queries_per_cell=1"},
+                    "refined  not: "),
+            false);
+  EXPECT_EQ(refined({"--set", "refine.steps=2"}, "refined  2 steps"), true);
+  // Nothing is added to it, so it is as it was.
+  EXPECT_EQ(refined({"--set", "refine.steps=0", "--extend", "out/ltc.h5"}, "entries "), true);
 }
 
 // The matrix that a printed command shows as stored.

@@ -53,6 +53,38 @@ TEST(FileSet, LeavesTheOlderSetWholeWhereALaterFileFails) {
   EXPECT_EQ(read_file(folder / "b"), "old b");
 }
 
+TEST(FileSet, RemovesWithTheOthersOrNotAtAll) {
+  const TemporaryDirectory folder;
+  folder.write("a", "old a");
+  folder.write("b", "old b");
+  {
+    FileSet files;
+    add_file(files, folder / "a", "new a");
+    files.remove(folder / "b");
+  }
+  EXPECT_EQ(read_file(folder / "b"), "old b");
+  FileSet files;
+  add_file(files, folder / "a", "new a");
+  files.remove(folder / "b");
+  files.remove(folder / "none");
+  files.commit();
+  EXPECT_EQ(names_in(folder.path()), (Names{"a"}));
+  EXPECT_EQ(read_file(folder / "a"), "new a");
+  // What cannot be removed keeps the others from taking their places.
+  fs::create_directory(folder / "folder");
+  FileSet refused;
+  add_file(refused, folder / "a", "newer a");
+  refused.remove(folder / "folder");
+  EXPECT_NE(message_of<IoError>([&] { refused.commit(); }).find("cannot remove"),
+            std::string::npos);
+  EXPECT_EQ(read_file(folder / "a"), "new a");
+}
+
+TEST(Time, IsWrittenInUtc) {
+  EXPECT_EQ(utc_iso8601(0), "1970-01-01T00:00:00Z");
+  EXPECT_EQ(utc_iso8601(1700000000), "2023-11-14T22:13:20Z");
+}
+
 TEST(FileSet, DevicesAndPipesAreNotReplaced) {
   const TemporaryDirectory folder;
   const fs::path pipe = folder / "pipe";

@@ -26,7 +26,7 @@ def check_attributes(file, expected):
     require(set(file.attrs) == set(expected["attributes"]), f"attributes are {sorted(file.attrs)}")
     for name, value in expected["attributes"].items():
         found = file.attrs[name]
-        kind = {"format_version": np.integer, "seed": np.uint64, "alpha_min": np.float64}.get(name, str)
+        kind = {"format_version": np.integer, "refined": np.integer, "seed": np.uint64, "alpha_min": np.float64}.get(name, str)
         require(isinstance(found, kind), f"attribute {name} is {type(found).__name__}")
         require(found == value, f"attribute {name} is {found!r}, expected {value!r}")
 

@@ -210,6 +210,18 @@ TEST(Exr, OurReaderGivesTheValuesBack) {
   const Table half = read_exr(folder / "h");
   for (std::size_t i = 0; i < table.stored.size(); ++i)
     EXPECT_EQ(half.stored[i], as_half(table.stored[i]));
+  EXPECT_EQ(found.precision, Precision::single);
+  EXPECT_EQ(half.precision, Precision::half);
+}
+
+TEST(Exr, WhetherATableIsRefinedIsKeptAndMayBeUnknown) {
+  const TemporaryFolder folder;
+  for (const std::optional<bool> refined : {std::optional<bool>(), {false}, {true}}) {
+    Table table = example();
+    table.refined = refined;
+    write_exr(table, folder / "t", false);
+    EXPECT_EQ(read_exr(folder / "t").refined, refined);
+  }
 }
 
 TEST(Exr, TheSameTableGivesTheSameBytes) {
@@ -347,8 +359,12 @@ TEST(Exr, HeadersThatDisagreeAreRefusedByFileAndFault) {
       {"ltc:axes or ltc:warp:", text("ltc:warp", "{}")},
       {"ltc:storage is missing", without("ltc:storage")},
       {"storage \"inverse\" is unknown", text("ltc:storage", "inverse")},
-      {"storage or alpha_min differ from those of file 0", text("ltc:storage", "matrix")},
+      {"alpha_min or ltc:refined differ from those of file 0", text("ltc:storage", "matrix")},
       {"ltc:alpha_min is missing", without("ltc:alpha_min")},
+      {"ltc:refined is 2; allowed: 0 and 1",
+       [](Imf::Header& h) { h.insert("ltc:refined", Imf::IntAttribute(2)); }},
+      {"ltc:refined differ from those of file 0",
+       [](Imf::Header& h) { h.insert("ltc:refined", Imf::IntAttribute(1)); }},
       {"ltc:channels is missing", without("ltc:channels")},
       {"ltc:channels is \"m00,m01,m02,m10\"", text("ltc:channels", "m00,m01,m02,m10")},
       {"channels must be R, G, B and A",

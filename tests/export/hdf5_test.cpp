@@ -60,6 +60,8 @@ nlohmann::json expectation(const Table& table) {
                             {"generator", table.generator},
                             {"config", table.config},
                             {"created", table.created}};
+  if (table.refined)
+    expected["attributes"]["refined"] = static_cast<int>(*table.refined);
   for (std::size_t i = 0; i < axis_names.size(); ++i) {
     const std::string name(axis_names[i]);
     expected["axes"][name] = axes_of(table.grid)[i]->nodes;
@@ -104,7 +106,8 @@ std::string refusal(const std::filesystem::path& path) {
 
 TEST(Hdf5, H5pyFindsTypesShapesAttributesAndValues) {
   const TemporaryFolder folder;
-  const Table table = example();
+  Table table = example();
+  table.refined = true;
   write_hdf5(table, folder / "t.h5");
   testing::write_bytes(folder / "t.json", expectation(table).dump());
   const Finished check = testing::run_python(
@@ -125,6 +128,16 @@ TEST(Hdf5, CheckerRejectsEveryOtherFile) {
                                                (folder / "t.json").string());
     EXPECT_EQ(check.exit_code, 1) << name << ": " << check.output;
     EXPECT_TRUE(check.output.starts_with("check_h5: ")) << check.output;
+  }
+}
+
+TEST(Hdf5, WhetherATableIsRefinedIsKeptAndMayBeUnknown) {
+  const TemporaryFolder folder;
+  for (const std::optional<bool> refined : {std::optional<bool>(), {false}, {true}}) {
+    Table table = example();
+    table.refined = refined;
+    write_hdf5(table, folder / "t.h5");
+    EXPECT_EQ(read_hdf5(folder / "t.h5").refined, refined);
   }
 }
 

@@ -204,5 +204,43 @@ TEST(ReadTable, GoesBySuffix) {
   EXPECT_THROW(read_table(folder / "none.h5"), IoError);
 }
 
+// The other published layout, by its closed form: both roughnesses up to 1.
+Table of_both_roughnesses() {
+  Grid grid = Grid::paper(4);
+  grid.layout = Layout::alphax_alphay;
+  return testing::synthetic_table(grid, Storage::matrix);
+}
+
+void write_as_npy(Table table, const std::filesystem::path& path) {
+  table.grid.layout = Layout::alpha_lambda;  // the array says nothing of it
+  write_npy(table, path);
+}
+
+TEST(Npy, TheLayoutIsToldBySymmetryOrByTheReader) {
+  const TemporaryFolder folder;
+  const Table both = of_both_roughnesses();
+  write_as_npy(both, folder / "both.npy");
+  write_npy(testing::synthetic_table(Grid::paper(4), Storage::matrix), folder / "ratio.npy");
+  EXPECT_EQ(read_npy(folder / "both.npy").grid, both.grid);
+  EXPECT_EQ(read_npy(folder / "ratio.npy").grid, Grid::paper(4));
+  EXPECT_EQ(read_npy(folder / "both.npy", Layout::alpha_lambda).grid, Grid::paper(4));
+  EXPECT_EQ(read_npy(folder / "ratio.npy", Layout::alphax_alphay).grid, both.grid);
+  // No exchange of axes that differ.
+  write_npy(testing::synthetic_table(Grid::paper({3, 2, 2, 2}), Storage::matrix),
+            folder / "uneven.npy");
+  EXPECT_EQ(read_npy(folder / "uneven.npy").grid.layout, Layout::alpha_lambda);
+  EXPECT_THROW(write_npy(both, folder / "t.npy"), InputError);
+}
+
+TEST(Npy, ThePublishedTablesAreToldApart) {
+  const auto other = test::reference_file("alphax_alphay_theta_phi.npy");
+  const auto published = test::reference_file("upstream_alpha_lambda_theta_phi.npy");
+  if (!std::filesystem::exists(other) || !std::filesystem::exists(published))
+    GTEST_SKIP() << "no " << other << " or " << published
+                 << "; set LTCFIT_REFERENCE_DIR to the folder that has them";
+  EXPECT_EQ(read_npy(other).grid.layout, Layout::alphax_alphay);
+  EXPECT_EQ(read_npy(published).grid.layout, Layout::alpha_lambda);
+}
+
 }  // namespace
 }  // namespace ltc

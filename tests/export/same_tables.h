@@ -27,6 +27,7 @@ inline void expect_same_tables(const Table& a, const Table& b) {
   EXPECT_EQ(a.config, b.config);
   EXPECT_EQ(a.generator, b.generator);
   EXPECT_EQ(a.created, b.created);
+  EXPECT_EQ(a.refined, b.refined);
   expect_same_bits(a.stored, b.stored, "stored");
   expect_same_bits(a.amplitude, b.amplitude, "amplitude");
   expect_same_bits(a.fresnel, b.fresnel, "fresnel");

@@ -72,6 +72,16 @@ TEST(SymmetryPlan, TurnsTheViewOfTheRepresentativeIntoTheEntrysOwn) {
   EXPECT_TRUE(some_turned);
 }
 
+TEST(SymmetryPlan, EachLobeOnceKeepsTheFirstOfItsCopies) {
+  const Grid grid = Grid::paper(3);
+  // theta = 0: one lobe for all phi; lambda = 1: turned ones; the last two are lobes of their own.
+  const std::vector<std::size_t> entries = {grid.flat({1, 1, 0, 2}), grid.flat({1, 1, 0, 0}),
+                                            grid.flat({2, 2, 1, 1}), grid.flat({2, 2, 1, 2}),
+                                            grid.flat({1, 1, 1, 1}), grid.flat({1, 1, 1, 2})};
+  EXPECT_EQ(each_lobe_once(grid, entries),
+            (std::vector<std::size_t>{entries[0], entries[2], entries[4], entries[5]}));
+}
+
 TEST(SymmetryPlan, TurnedIsTheRotatedLobesMatrix) {
   Eigen::Matrix3d m;
   m << 0.6, 0.1, -0.4, 0.05, 0.3, -0.2, 0.3, 0.1, 0.9;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "statistics.h"
 
 namespace ltc {
@@ -177,6 +178,33 @@ TEST(LinearlyTransformed, TheScaleOfTheMatrixIsNothing) {
   const LinearlyTransformed one(printed_matrix()), other(1e-3 * printed_matrix());
   const Eigen::Vector3d omega = Eigen::Vector3d(1, 1, 0.3).normalized();
   EXPECT_NEAR(one.density(omega), other.density(omega), 1e-12 * one.density(omega));
+}
+
+TEST(ShareBelowHorizon, IsWhatThePolygonOfTheHorizonLeavesOut) {
+  // Four octants: the horizon as one polygon would not say on which side it lies.
+  const std::vector<Eigen::Vector3d> horizon = {
+      {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}};
+  Random random(11);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Matrix3d matrix =
+        Eigen::Matrix3d::NullaryExpr([&](auto, auto) { return 2 * random.uniform() - 1; });
+    double above = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      above += LinearlyTransformed(matrix).integrate_polygon(
+          std::vector<Eigen::Vector3d>{horizon[k], horizon[k + 1], {0, 0, 1}});
+    // Rounding, times the condition of a random matrix.
+    EXPECT_NEAR(share_below_horizon(matrix), 1 - above, 1e-9) << matrix;
+  }
+}
+
+TEST(ShareBelowHorizon, KeepsTheDigitsOfSmallShares) {
+  EXPECT_EQ(share_below_horizon(Eigen::Matrix3d::Identity()), 0);
+  EXPECT_EQ(share_below_horizon(Eigen::Vector3d(1, 1, -1).asDiagonal()), 1);
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  matrix(2, 0) = 2e-9;  // tilts the half-space by as many radians
+  EXPECT_NEAR(share_below_horizon(matrix), 1e-18, 1e-30);
+  matrix.row(2) << 1, 0, 0;
+  EXPECT_NEAR(share_below_horizon(matrix), 0.5, 1e-15);
 }
 
 TEST(LinearlyTransformed, RefusesAMatrixWithoutInverse) {

@@ -42,6 +42,14 @@ TEST(TableSummary, IgnoresEntriesWithoutALoss) {
   EXPECT_EQ(summary.worst, (std::vector<std::size_t>{5, 3, 12}));
 }
 
+TEST(TableSummary, NamesEachLobeOnce) {
+  Table table = small_table();
+  // Entries 12 and 13 differ in phi alone, at theta = 0.
+  for (const auto& [entry, loss] : {std::pair{12, 1.0f}, {13, 1.0f}, {10, 0.5f}})
+    table.sw_loss[static_cast<std::size_t>(entry)] = loss;
+  EXPECT_EQ(summarize(table, 5).worst, (std::vector<std::size_t>{12, 10}));
+}
+
 TEST(TableSummary, PercentileLeavesFivePercentAbove) {
   Table table = Table::empty(Grid::paper(5), Storage::matrix);  // 625 entries
   for (std::size_t i = 0; i < 100; ++i)

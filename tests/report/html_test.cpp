@@ -34,7 +34,9 @@ TEST(Html, APictureIsWithinThePage) {
 
 TEST(Html, NumbersOfATableStandToTheRight) {
   const std::string html = table({{"what", "value", "note"}, {{"a", "1", "x"}}, 1, 2});
-  EXPECT_NE(html.find("<td>a</td><td class=\"number\">1</td><td>x</td>"), std::string::npos);
+  EXPECT_NE(html.find("<td data-head=\"what\">a</td><td class=\"number\" data-head=\"value\">1</td>"
+                      "<td data-head=\"note\">x</td>"),
+            std::string::npos);
   EXPECT_NE(html.find("<th class=\"number\">value</th>"), std::string::npos);
 }
 

@@ -99,6 +99,24 @@ TEST(Extend, NothingToAddChangesNothing) {
   testing::expect_same_tables(extended(existing, additions), existing);
 }
 
+TEST(Extend, IsRefinedWhereEitherPartIs) {
+  const Table whole = testing::synthetic_table(Grid::paper(2), Storage::matrix);
+  const auto of = [&](std::size_t entry, std::optional<bool> refined) {
+    std::vector<bool> flags(whole.grid.size());
+    flags[entry] = true;
+    Table table = part_of(whole, flags);
+    table.refined = refined;
+    return table;
+  };
+  const auto extended_by = [&](std::optional<bool> existing, std::optional<bool> added) {
+    return extended(of(0, existing), of(1, added)).refined;
+  };
+  EXPECT_EQ(extended_by(false, false), false);
+  EXPECT_EQ(extended_by(false, true), true);
+  EXPECT_EQ(extended_by(true, std::nullopt), true);
+  EXPECT_EQ(extended_by(std::nullopt, false), std::nullopt);
+}
+
 TEST(Extend, TellsOfBothRuns) {
   const Grid grid = Grid::paper(2);
   const Table whole = testing::synthetic_table(grid, Storage::matrix);

@@ -300,5 +300,31 @@ TEST(LookUp, NanInNanOut) {
       std::isnan(look_up(table, {0.3, 0.2, 1, std::numeric_limits<double>::infinity()}).amplitude));
 }
 
+// The other published layout: exact at its nodes, whichever roughness is larger, and linear in
+// alpha_x and alpha_y between them.
+TEST(LookUp, InterpolatesBothRoughnessesWhereTheTableHasThem) {
+  Grid grid = Grid::paper(5);
+  grid.layout = Layout::alphax_alphay;
+  const Table table = testing::synthetic_table(grid, Storage::matrix);
+  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    const NodeIndex node = grid.node(flat);
+    const GgxLobe lobe = {grid.alpha.nodes[node.alpha], grid.lambda.nodes[node.lambda],
+                          grid.theta.nodes[node.theta], grid.phi.nodes[node.phi]};
+    const FoldedLobe folded = fold(grid, lobe);
+    EXPECT_TRUE(covers(grid, folded.lobe));
+    EXPECT_EQ(look_up(table, lobe).matrix, folded.unfold * table.matrix_at(flat)) << flat;
+  }
+  const GgxLobe a = {0.25, 0.75, 0, 0}, b = {0.5, 1, 0, 0}, between = {0.375, 0.875, 0, 0};
+  // The synthetic matrix is linear in both roughnesses; rounding to 32 bits.
+  const Eigen::Matrix3d mean = 0.5 * (look_up(table, a).matrix + look_up(table, b).matrix);
+  EXPECT_LT((look_up(table, between).matrix - mean).cwiseAbs().maxCoeff(), 1e-7);
+  // Mirrored views are looked up as those of the first quadrant.
+  GgxLobe mirrored = {0.5, 0.75, 0.7, 0.4};
+  const Eigen::Matrix3d first = look_up(table, mirrored).matrix;
+  mirrored.phi_radians = -0.4;
+  const Eigen::Matrix3d flipped = Eigen::Vector3d(1, -1, 1).asDiagonal() * first;
+  EXPECT_LT((look_up(table, mirrored).matrix - flipped).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 }  // namespace
 }  // namespace ltc

@@ -11,6 +11,7 @@
 #include <limits>
 #include <set>
 
+#include "ltc/ltsd.h"
 #include "pipeline/generate.h"
 
 namespace ltc {
@@ -67,7 +68,7 @@ TEST(Invariants, HoldForASoundTableOfAnyStorage) {
                             ? good_table()
                             : generate_table(small_config(storage), 1, nullptr, nullptr);
     const std::vector<InvariantResult> results = check(table);
-    EXPECT_EQ(results.size(), 14u);
+    EXPECT_EQ(results.size(), 15u);
     for (const InvariantResult& result : results) {
       EXPECT_TRUE(result.passed) << storage_name(storage) << ": " << result.message;
       EXPECT_TRUE(result.checked) << result.name;
@@ -78,7 +79,7 @@ TEST(Invariants, HoldForASoundTableOfAnyStorage) {
     // And they have looked: these are never without any.
     for (const char* name :
          {"determinant", "condition number", "third column", "alignment", "half precision",
-          "float inverse", "albedo quadrature", "stored loss", "neighbours"})
+          "float inverse", "below horizon", "albedo quadrature", "stored loss", "neighbours"})
       EXPECT_GT(named(results, name).value, 0) << name;
   }
 }
@@ -317,6 +318,59 @@ TEST(Invariants, WhatIsNotInTheFileIsNotPassedSilently) {
   EXPECT_EQ(unchecked, (std::set<std::string>{"albedo range", "albedo quadrature", "stored loss"}));
   // In a file that has them, the same values are a fault.
   EXPECT_TRUE(failed(check(table)).contains("finite"));
+}
+
+TEST(Invariants, WhatHasNoLimitIsToldAndNotJudged) {
+  const std::vector<InvariantResult> results = check(good_table());
+  for (const InvariantResult& result : results)
+    EXPECT_EQ(result.judged, result.name != "half precision" && result.name != "below horizon")
+        << result.name;
+  EXPECT_EQ(allowed_text(named(results, "half precision")), "any");
+  EXPECT_EQ(named(results, "half precision").reason, "no limit is set");
+  InvariantLimits limits;
+  limits.half_error = 0.01;
+  limits.below_horizon = 0.01;
+  const std::vector<InvariantResult> strict = check_invariants(good_table(), limits, 1, nullptr);
+  // 16 bits lose the smoothest lobes alone.
+  const InvariantResult& half = named(strict, "half precision");
+  EXPECT_TRUE(half.judged);
+  EXPECT_FALSE(half.passed);
+  for (const std::size_t entry : half.entries)
+    EXPECT_EQ(good_table().grid.node(entry).alpha, 0u);
+  EXPECT_FALSE(named(strict, "below horizon").passed);
+}
+
+TEST(Invariants, ALobeTurnedBelowTheHorizonIsFound) {
+  Table table = good_table();
+  const std::size_t general = table.grid.flat({2, 2, 1, 1});
+  replace_matrix(table, general, [](const Eigen::Matrix3d& m) -> Eigen::Matrix3d {
+    return Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix() * m;
+  });
+  InvariantLimits limits;
+  limits.below_horizon = 0.5;
+  const std::vector<InvariantResult> results = check_invariants(table, limits, 1, nullptr);
+  EXPECT_EQ(named(results, "below horizon").entries, std::vector<std::size_t>{general});
+  EXPECT_EQ(named(results, "below horizon").value, share_below_horizon(table.matrix_at(general)));
+}
+
+// Nodes of a refined table are turned for their cells; of 16 bits there is nothing more to lose.
+TEST(Invariants, WhatDoesNotApplyIsNotChecked) {
+  Table table = good_table();
+  table.refined = true;
+  table.precision = Precision::half;
+  InvariantLimits limits;
+  limits.alignment_degrees = 180;
+  const auto reason_of = [&](const char* name) {
+    const std::vector<InvariantResult> results = check_invariants(table, limits, 1, nullptr);
+    const InvariantResult& result = named(results, name);
+    EXPECT_FALSE(result.checked);
+    EXPECT_TRUE(result.passed);
+    return result.reason;
+  };
+  EXPECT_EQ(reason_of("half precision"), "its values have 16 bits already");
+  EXPECT_EQ(reason_of("alignment"), "nodes of a refined table serve the cells about them");
+  table.refined.reset();
+  EXPECT_EQ(reason_of("alignment"), "whether the table is refined is not known");
 }
 
 TEST(Invariants, ATableOfTheWrongShapeIsNotLookedIntoFurther) {

@@ -70,32 +70,5 @@ TEST(Misalignment, AReflectionCountsAsHalfATurn) {
   EXPECT_EQ(misalignment_degrees(Eigen::Matrix3d(mirror.asDiagonal())), 180);
 }
 
-TEST(HalfPrecision, ChangesNoMatrixThatItHolds) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.5, 0, -0.25, 0, 0.375, 0, 1024, 0, 1;
-  EXPECT_EQ(half_determinant_change(matrix), 0);
-}
-
-TEST(HalfPrecision, ChangesOthersByAtMostTheirRounding) {
-  // Each of the three factors is rounded by at most 2^-11.
-  const Eigen::Vector3d diagonal(1.0 / 3, 0.1, 0.7);
-  const double change = half_determinant_change(Eigen::Matrix3d(diagonal.asDiagonal()));
-  EXPECT_GT(change, 0);
-  EXPECT_LT(change, 3.01 * 0x1p-11);
-}
-
-TEST(HalfPrecision, LosesWhatItCannotHold) {
-  // Half the least number that is not zero.
-  Eigen::Matrix3d matrix = Eigen::Vector3d(1, 0x1p-26, 1).asDiagonal();
-  EXPECT_EQ(half_determinant_change(matrix), 1);
-  // Beyond 65504.
-  matrix(1, 1) = 70000;
-  EXPECT_TRUE(std::isnan(half_determinant_change(matrix)));
-  // Two columns nearer to each other than rounding, whose order it turns round.
-  matrix << 1.0001, 1, 0, 1.0006, 1.0004, 0, 0, 0, 1;
-  EXPECT_LT(matrix.determinant(), 0.001);
-  EXPECT_GE(half_determinant_change(matrix), 1);
-}
-
 }  // namespace
 }  // namespace ltc

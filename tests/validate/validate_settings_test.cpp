@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-#include "test_paths.h"
 #include "validate/validate_settings.h"
+#include "test_paths.h"
 
 #include <gtest/gtest.h>
 #include <toml++/toml.h>
@@ -53,6 +53,34 @@ TEST(ValidateSettings, ThoseOfRefinedTablesAreThoseOfTheirFile) {
   EXPECT_EQ(changed.invariants, built_in.invariants);
 }
 
+TEST(ValidateSettings, FollowWhatIsKnownOfTheTable) {
+  Table table;
+  table.refined = false;
+  EXPECT_EQ(settings_for(table).invariants, InvariantLimits{});
+  EXPECT_EQ(settings_for(table).thresholds, QualityThresholds{});
+  table.refined = true;
+  const ValidateSettings of_refined = settings_for_refined_tables();
+  EXPECT_EQ(settings_for(table).invariants, of_refined.invariants);
+  EXPECT_EQ(settings_for(table).thresholds, of_refined.thresholds);
+  // Not known: what either may have.
+  table.refined.reset();
+  const ValidateSettings unknown = settings_for(table);
+  EXPECT_EQ(unknown.invariants, of_refined.invariants);
+  EXPECT_EQ(unknown.thresholds.node_loss, of_refined.thresholds.node_loss);
+  EXPECT_EQ(unknown.thresholds.query_loss, QualityThresholds{}.query_loss);
+  // 16 bits: what they cannot hold, and nothing else.
+  table.refined = false;
+  table.precision = Precision::half;
+  InvariantLimits half;
+  half.unit_length = half.albedo_error = 5e-4;
+  half.neighbour_slack = 3e-4;
+  half.alignment_degrees = 1;
+  EXPECT_EQ(settings_for(table).invariants, half);
+  table.refined = true;
+  EXPECT_EQ(settings_for(table).invariants.neighbour_slack, of_refined.invariants.neighbour_slack);
+  EXPECT_EQ(settings_for(table).thresholds, of_refined.thresholds);
+}
+
 TEST(ValidateSettings, FilesAndThenOverridesSetKeys) {
   const TemporaryDirectory folder;
   const auto file = folder.write("v.toml",
@@ -81,7 +109,7 @@ TEST(ValidateSettings, WhatIsWrongIsSaidInOneLine) {
                   {"v.toml:2", "invariants.zero = \"none\"", "a number in [0, 1e+300]"});
   expect_one_line(message("[invariants]\nsamples = 10\n"),
                   {"v.toml:2", "invariants.samples = 10", "[1024, 65536]"});
-  expect_one_line(message("[invariants]\nhalf_determinant = 1\n"), {"v.toml:2", "[0, 1)"});
+  expect_one_line(message("[invariants]\nbelow_horizon = 2\n"), {"v.toml:2", "[0, 1]"});
   expect_one_line(message("[invariants\n"), {"v.toml:1", "not TOML"});
   const std::vector<std::string> overrides = {"invariants.samples"};
   expect_one_line(message_of<InputError>([&] { load_validate_settings(std::nullopt, overrides); }),

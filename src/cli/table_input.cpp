@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "cli/table_input.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/output.h"
+#include "export/reader.h"
+
+namespace ltc::cli {
+
+void add_layout_option(CLI::App& app, std::optional<Layout>& layout) {
+  app.add_option_function<std::string>(
+         "--layout",
+         [&layout](const std::string& name) {
+           layout = name == layout_name(Layout::alphax_alphay) ? Layout::alphax_alphay
+                                                               : Layout::alpha_lambda;
+         },
+         "what the first two axes of an .npy hold: alpha-lambda or alphax-alphay [told apart by "
+         "the symmetry of alpha_x and alpha_y]")
+      ->check([](const std::string& name) {
+        for (const Layout known : {Layout::alpha_lambda, Layout::alphax_alphay})
+          if (name == layout_name(known))
+            return std::string();
+        return fmt::format("{} is not allowed; expected alpha-lambda or alphax-alphay",
+                           shell_quoted(name));
+      })
+      ->option_text("LAYOUT");
+}
+
+Table read_input(const std::string& file, std::optional<Layout> layout) {
+  Table table = read_table(file, layout);
+  // A line that cannot be written is no reason to stop.
+  if (!layout && table.grid.layout == Layout::alphax_alphay)
+    std::fputs(
+        fmt::format("{}: read with axes alpha_x, alpha_y, theta, phi, since exchanging the first "
+                    "two is its symmetry; --layout alpha-lambda reads it otherwise\n",
+                    one_line(file))
+            .c_str(),
+        stderr);
+  return table;
+}
+
+}  // namespace ltc::cli

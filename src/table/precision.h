@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// How many bits a stored value has, and what that leaves of a matrix.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace ltc {
+
+enum class Precision { single, half };  // 32 bits, 16 bits
+
+// Every entry the nearest that the precision has, ties to even, as processors and texture units
+// round; infinite where it is beyond the largest.
+Eigen::Matrix3d rounded(const Eigen::Matrix3d& matrix, Precision precision);
+
+}  // namespace ltc
