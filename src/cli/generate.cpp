@@ -84,16 +84,22 @@ void require_replaceable(const std::vector<fs::path>& files) {
                                 file.string()));
 }
 
-// All or none: an older set of files stands until the new one is on the disk.
-void write_files(const Table& table, const Config& config, const fs::path& folder) {
+// All or none: an older set of files stands until the new one is on the disk. Until then a stop is
+// still possible.
+void write_files(const Table& table, const Config& config, const fs::path& folder,
+                 const Progress& progress) {
   const OutputSettings& output = config.output;
   platform::FileSet files;
+  progress.throw_if_stopped();
   if (output.hdf5)
     add_hdf5(files, table, folder / (output.name + ".h5"));
+  progress.throw_if_stopped();
   if (output.exr)
     add_exr(files, table, folder / output.name, output.exr_half);
+  progress.throw_if_stopped();
   if (writes_npy(config))
     add_npy(files, table, folder / (output.name + ".npy"));
+  progress.throw_if_stopped();
   files.commit();
 }
 
@@ -127,6 +133,10 @@ Work plan_work(const Arguments& arguments, const Config& config) {
     work.to_fit = lacking_entries(*work.existing, work.needed);
   }
   return work;
+}
+
+RefineContext refine_context(const Work& work) {
+  return {work.asked, work.existing ? &*work.existing : nullptr};
 }
 
 std::size_t count_true(const std::vector<bool>& flags) {
@@ -165,15 +175,13 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
   CheckpointKeeper keeper(task, *journal, progress);
   keeper.guard([&] {
     table = generate_table(config, work.to_fit, arguments.threads, &progress, &report.generate,
-                           journal.get(), {work.asked, work.existing ? &*work.existing : nullptr});
+                           journal.get(), refine_context(work));
     keeper.close();
     if (work.existing)
       table = extended(*work.existing, table);
     require_any_value(table);
-    // The last chance to stop: the files are written all or none.
-    progress.throw_if_stopped();
     const Clock::time_point writing_began = Clock::now();
-    write_files(table, config, folder);
+    write_files(table, config, folder, progress);
     report.generate.stage_seconds.emplace_back("write", seconds_since(writing_began));
   });
   keeper.remove();
@@ -215,6 +223,7 @@ void generate(const Arguments& arguments) {
 
   const Config config = arguments.config.load();
   const Work work = plan_work(arguments, config);
+  require_memory(config, work.to_fit, refine_context(work));
   const OutputFolder folder(arguments.output);
   const platform::FolderLock lock(folder.path());
   RunReport report;

@@ -50,7 +50,7 @@ void validate(const Arguments& arguments) {
                                        &progress, contents_of(arguments.table));
   if (!arguments.no_quality) {
     report.quality = measure_quality(report.table, settings.quality, arguments.threads, &progress);
-    report.thresholds = check_thresholds(*report.quality, settings.thresholds);
+    report.thresholds = check_thresholds(*report.quality, settings.thresholds, settings.said);
   }
   const std::string page =
       arguments.report.empty() ? "" : validation_page(report, {}, arguments.threads, &progress);

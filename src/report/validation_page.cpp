@@ -38,9 +38,9 @@ html::Verdict verdict_of(const InvariantResult& result) {
 }
 
 html::Verdict verdict_of(const ThresholdCheck& check) {
-  return std::isnan(check.value) ? html::Verdict::not_checked
-         : check.passed          ? html::Verdict::passed
-                                 : html::Verdict::failed;
+  return !check.passed    ? html::Verdict::failed
+         : check.judged() ? html::Verdict::passed
+                          : html::Verdict::not_checked;
 }
 
 std::string sentence(const Validation& validation) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-#include "test_paths.h"
 #include "validate/validate_settings.h"
+#include "test_paths.h"
 
 #include <gtest/gtest.h>
 #include <toml++/toml.h>
@@ -62,6 +62,8 @@ TEST(ValidateSettings, FilesAndThenOverridesSetKeys) {
   const ValidateSettings settings = load_validate_settings(file, overrides);
   EXPECT_EQ(settings.invariants.condition_number, 1e5);
   EXPECT_EQ(settings.invariants.samples, 4096);
+  EXPECT_EQ(settings.said, (std::set<std::string>{"invariants.condition_number",
+                                                  "invariants.samples", "invariants.directions"}));
   EXPECT_EQ(settings.invariants.directions, 8);
   EXPECT_EQ(settings.invariants.loss_excess, InvariantLimits{}.loss_excess);
 }
