@@ -96,19 +96,24 @@ fs::path checkpoint_of(const Config& config, const fs::path& folder) {
   return folder / (config.output.name + ".checkpoint.h5");
 }
 
-// All or none: an older set of files stands until the new one is on the disk.
+// All or none: an older set of files stands until the new one is on the disk. Until then a stop is
+// still possible.
 void write_files(const Table& table, const Config& config, const fs::path& folder,
-                 const std::vector<fs::path>& removed) {
+                 const std::vector<fs::path>& removed, const Progress& progress) {
   const OutputSettings& output = config.output;
   platform::FileSet files;
+  progress.throw_if_stopped();
   if (output.hdf5)
     add_hdf5(files, table, folder / (output.name + ".h5"));
+  progress.throw_if_stopped();
   if (output.exr)
     add_exr(files, table, folder / output.name, output.exr_half);
+  progress.throw_if_stopped();
   if (writes_npy(config))
     add_npy(files, table, folder / (output.name + ".npy"));
   for (const fs::path& file : removed)
     files.remove(file);
+  progress.throw_if_stopped();
   files.commit();
 }
 
@@ -142,6 +147,10 @@ Work plan_work(const Arguments& arguments, const Config& config) {
     work.to_fit = lacking_entries(*work.existing, work.needed);
   }
   return work;
+}
+
+RefineContext refine_context(const Work& work) {
+  return {work.asked, work.existing ? &*work.existing : nullptr};
 }
 
 std::size_t count_true(const std::vector<bool>& flags) {
@@ -187,16 +196,14 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
   CheckpointKeeper keeper(task, *journal, progress);
   keeper.guard([&] {
     table = generate_table(config, work.to_fit, arguments.threads, &progress, &report.generate,
-                           journal.get(), {work.asked, work.existing ? &*work.existing : nullptr});
+                           journal.get(), refine_context(work));
     table.created = created;
     keeper.close();
     if (work.existing)
       table = extended(*work.existing, table);
     require_any_value(table);
-    // The last chance to stop: the files are written all or none.
-    progress.throw_if_stopped();
     const Clock::time_point writing_began = Clock::now();
-    write_files(table, config, folder, report.removed);
+    write_files(table, config, folder, report.removed, progress);
     report.generate.stage_seconds.emplace_back("write", seconds_since(writing_began));
   });
   keeper.remove();
@@ -239,6 +246,7 @@ void generate(const Arguments& arguments, Files& files) {
   const std::string created = creation_time();
   const Config config = arguments.config.load();
   const Work work = plan_work(arguments, config);
+  require_memory(config, work.to_fit, refine_context(work));
   const fs::path folder = files.make_folder(arguments.output);
   const platform::FolderLock lock(folder);
   RunReport report;

@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 #include <array>
+#include <cmath>
 
 #include "core/angle.h"
 #include "validate/matrix_invariants.h"
@@ -61,6 +62,15 @@ nlohmann::ordered_json matrix_json(const Eigen::Matrix3d& matrix) {
   for (int row = 0; row < 3; ++row)
     rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2)});
   return rows;
+}
+
+std::string range_words(const QueryRange& range) {
+  return fmt::format(
+      "perceptual roughness {:.3g} to {:.3g}, lambda {:.3g} to {:.3g}, theta {:.3g} to {:.3g}, phi "
+      "{:.3g} to {:.3g}",
+      range.roughness_first, range.roughness_last, range.lambda_first, range.lambda_last,
+      degrees(std::acos(range.cos_theta_last)), degrees(std::acos(range.cos_theta_first)),
+      degrees(range.phi_first), degrees(range.phi_last));
 }
 
 }  // namespace ltc::cli

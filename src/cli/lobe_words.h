@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// How reports on one lobe write its parts.
+// How reports write lobes, their parts and ranges of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "brdf/ggx.h"
+#include "table/queries.h"
 #include "table/table.h"
 
 namespace ltc::cli {
@@ -27,5 +28,8 @@ std::string loss_words(double held_out_loss, double spread);
 
 nlohmann::ordered_json lobe_json(const GgxLobe& lobe);
 nlohmann::ordered_json matrix_json(const Eigen::Matrix3d& matrix);  // rows; null for NaN
+
+// "perceptual roughness 0.1 to 1, lambda 0 to 1, theta 0 to 90, phi 0 to 90", angles in degrees.
+std::string range_words(const QueryRange& range);
 
 }  // namespace ltc::cli

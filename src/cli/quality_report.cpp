@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "cli/lobe_words.h"
 #include "core/angle.h"
 
 namespace ltc::cli {
@@ -20,6 +21,12 @@ std::string row_text(const char* what, const Statistics& d) {
                      d.count, d.mean, d.standard_error, d.p50, d.p95, d.p99, d.largest);
 }
 
+std::string noise_text(double noise) {
+  return std::isnan(noise)
+             ? ""
+             : fmt::format("  noise of the GGX that they are judged by: {:.1e} a light\n", noise);
+}
+
 std::string figures_text(const QualityReport& quality) {
   return fmt::format("\n{:<36} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "quality", "judged",
                      "mean", "+-", "median", "95 %", "99 %", "largest") +
@@ -32,8 +39,8 @@ std::string figures_text(const QualityReport& quality) {
          row_text("below the horizon, at nodes", quality.nodes_below_horizon) +
          row_text("below the horizon, between nodes", quality.below_horizon) +
          row_text("  floor: each query fitted", quality.floor_below_horizon) +
-         fmt::format("  noise of the GGX that they are judged by: {:.1e} a light\n",
-                     quality.area_light_noise);
+         noise_text(quality.area_light_noise) +
+         fmt::format("queries: {}\n", range_words(quality.settings.range));
 }
 
 std::string left_out_text(const QualityReport& quality) {
@@ -81,11 +88,9 @@ std::string thresholds_text(const std::vector<ThresholdCheck>& thresholds) {
   for (const ThresholdCheck& check : thresholds)
     text += !check.reason.empty()
                 ? fmt::format("{:<36} {:>8}  not checked: {}\n", check.what, "", check.reason)
-            : std::isnan(check.value)
-                ? fmt::format("{:<36} {:>8}  at most {:<8.4g} not judged\n", check.what, "",
-                              check.limit)
-                : fmt::format("{:<36} {:>8.4f}  at most {:<8.4g} {}\n", check.what, check.value,
-                              check.limit, check.passed ? "passed" : "FAILED " + check.key);
+                : fmt::format("{:<36} {:>8}  at most {:<8.4g} {}{}\n", check.what,
+                              check.judged() ? fmt::format("{:.4f}", check.value) : "", check.limit,
+                              verdict_text(check), check.passed ? "" : " " + check.key);
   return text;
 }
 
@@ -98,6 +103,14 @@ Json json_of(const Statistics& d) {
           {"p99", d.p99},
           {"largest", d.largest},
           {"largest_index", d.largest_index}};
+}
+
+Json json_of(const QueryRange& range) {
+  return {
+      {"roughness", {range.roughness_first, range.roughness_last}},
+      {"lambda", {range.lambda_first, range.lambda_last}},
+      {"cos_theta", {range.cos_theta_first, range.cos_theta_last}},
+      {"phi_degrees", {range.phi_first / radians_per_degree, range.phi_last / radians_per_degree}}};
 }
 
 Json json_of(const Bands& bands) {
@@ -150,9 +163,9 @@ Json quality_json(const std::string& file, const QualityReport& quality,
          {"what", check.what},
          {"value", check.value},
          {"at_most", check.limit},
-         {"passed",
-          std::isnan(check.value) || !check.reason.empty() ? Json(nullptr) : Json(check.passed)},
+         {"passed", check.has_verdict() ? Json(check.passed) : Json(nullptr)},
          {"reason", check.reason}});
+  json["query_range"] = json_of(quality.settings.range);
   json["node_loss"] = json_of(quality.nodes);
   json["nodes_without_values"] = quality.nodes_without_values;
   json["query_loss"] = json_of(quality.query_losses);

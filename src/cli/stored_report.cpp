@@ -35,7 +35,7 @@ std::string nodes_text(const StoredReport& report) {
                                  lobe.nodes.size(), lobe.nodes.size() == 1 ? "entry" : "entries");
   if (!lobe.within_axes)
     text += "         the lobe is beyond the table's axes: clamped to them, as a shader does\n";
-  if (fold(report.table.grid, lobe.lobe).unfold.determinant() < 0)
+  if (Reduction(report.table.grid).fold(lobe.lobe).unfold.determinant() < 0)
     text += "         unfolded by a reflection: a negative determinant, the same lobe\n";
   for (const TakenNode& node : lobe.nodes)
     text += fmt::format("         {:>7.4f} of {:<11} ({}) {:.4f}\n", node.weight,

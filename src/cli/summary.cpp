@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "cli/lobe_words.h"
 #include "cli/progress.h"
+#include "core/angle.h"
 #include "pipeline/summary.h"
 #include "table/entry_text.h"
+#include "table/reduction.h"
 
 namespace ltc::cli {
 namespace {
@@ -58,6 +61,23 @@ std::string scene_text(const Table& table, const RunReport& report) {
   return text;
 }
 
+// Which part of the config's range was refined on; nothing where it was all of it.
+std::string range_text(const GenerateReport& made) {
+  if (!made.range_served)
+    return "";
+  return fmt::format("         on what the table serves: {}\n", range_words(*made.range_served));
+}
+
+// One node along phi is enough for isotropic lobes alone.
+std::string azimuth_text(const Grid& grid) {
+  if (grid.phi.size() > 1 || Reduction(grid).turns())
+    return "";
+  return fmt::format(
+      "warning  one node along phi, and lobes that are not isotropic: right for views along phi = "
+      "{:.4g} alone; others get the values there\n",
+      grid.phi.first() / radians_per_degree);
+}
+
 // What refinement has gained; nothing where none was asked for.
 std::string refine_text(const GenerateReport& made) {
   if (!made.refine)
@@ -99,7 +119,8 @@ std::string summary_text(const Table& table, const RunReport& report) {
                       static_cast<double>(report.peak_memory_bytes) / 1e6);
   text += entries_text(summary);
   text += scene_text(table, report);
-  text += refine_text(report.generate);
+  text += refine_text(report.generate) + range_text(report.generate);
+  text += azimuth_text(table.grid);
   text += loss_text(summary);
   text += fmt::format("symmetry largest value zeroed {:.1e}, at entry {}\n",
                       report.generate.largest_zeroed,

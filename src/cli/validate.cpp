@@ -53,7 +53,7 @@ void validate(const Arguments& arguments, Files& files) {
                                        &progress, contents_of(arguments.table));
   if (!arguments.no_quality) {
     report.quality = measure_quality(report.table, settings.quality, arguments.threads, &progress);
-    report.thresholds = check_thresholds(*report.quality, settings.thresholds);
+    report.thresholds = check_thresholds(*report.quality, settings.thresholds, settings.said);
     for (ThresholdCheck& check : report.thresholds)
       if (!check.reason.empty())
         check.reason = why_not_limited(report.table);

@@ -56,7 +56,7 @@ std::vector<Key> fit_keys() {
   return {
       key("fit.solver", [](Draft& d) { return &d.config.fit.solver; }, solvers, "which optimiser fits the matrices"),
       key("fit.target", [](Draft& d) { return &d.config.fit.target; }, targets, "how the lobe is sampled: weighted lattice, or algorithm 1 with rejection as published"),
-      key("fit.seed", [](Draft& d) { return &d.config.fit.seed; }, {0, most_seed}, "seed of everything random; the same seed gives the same bits"),
+      key("fit.seed", [](Draft& d) { return &d.config.fit.seed; }, {0, most_seed}, "seed of what is random: sgd, rejection, random starts; without effect on the default settings"),
 
       key("fit.gauss_newton.coarse_samples", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_samples; }, {64, 65536}, "cosine samples of the coarse phase"),
       key("fit.gauss_newton.coarse_directions", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_directions; }, {4, 4096}, "projection directions of the coarse phase"),

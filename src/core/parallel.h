@@ -53,7 +53,19 @@ void parallel_for_each(std::string_view stage, std::size_t count, int threads, P
     progress->throw_if_stopped();
 }
 
-// The same for work(i) that needs no state.
+// Calls work(i) for i in [0, count) as a part of a stage that is under way: nothing is counted, and
+// `work` is too short to be taken one by one and throws nothing. Throws Interrupted as above.
+template <typename Work>
+void parallel_for(std::size_t count, int threads, const Progress* progress, Work&& work) {
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::size_t i = 0; i < count; ++i)
+    if (!(progress && progress->stop_requested()))
+      work(i);
+  if (progress)
+    progress->throw_if_stopped();
+}
+
+// As parallel_for_each, for work(i) that needs no state.
 template <typename Work>
 void parallel_for_each(std::string_view stage, std::size_t count, int threads, Progress* progress,
                        Work&& work) {

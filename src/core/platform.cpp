@@ -20,6 +20,7 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <set>
 #include <system_error>
@@ -368,6 +369,54 @@ std::size_t peak_memory_bytes() {
   if (::getrusage(RUSAGE_SELF, &usage) != 0)
     return 0;
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+namespace {
+
+// The number that a file begins with, or that follows a word in it; none of "max".
+std::optional<std::size_t> number_in(const fs::path& file, const std::string& word = "") {
+  std::ifstream stream(file);
+  std::string read;
+  while (!word.empty() && stream >> read && read != word) {
+  }
+  std::size_t number = 0;
+  return stream >> number ? std::optional(number) : std::nullopt;
+}
+
+// What the control group in this folder, of version 2, leaves its processes; files that it caches
+// give way.
+std::optional<std::size_t> memory_left_in(const fs::path& group) {
+  const auto limit = number_in(group / "memory.max"), used = number_in(group / "memory.current");
+  if (!limit || !used)
+    return std::nullopt;
+  const std::size_t cached = number_in(group / "memory.stat", "inactive_file").value_or(0);
+  const std::size_t needed = *used - std::min(*used, cached);
+  return *limit - std::min(*limit, needed);
+}
+
+}  // namespace
+
+std::size_t available_memory_bytes() {
+  std::size_t available = std::numeric_limits<std::size_t>::max();
+  const auto bound = [&](std::optional<std::size_t> bytes) {
+    available = std::min(available, bytes.value_or(available));
+  };
+  if (const auto kilobytes = number_in("/proc/meminfo", "MemAvailable:"))
+    bound(*kilobytes * 1024);
+  const fs::path root = "/sys/fs/cgroup";
+  bound(memory_left_in(root));
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);)
+    if (line.starts_with("0::/"))
+      for (fs::path group = line.substr(4); !group.empty(); group = group.parent_path())
+        bound(memory_left_in(root / group));
+  rlimit limit{};
+  const auto used = number_in("/proc/self/statm");  // pages of address space
+  if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && used) {
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    bound(limit.rlim_cur - std::min<std::size_t>(limit.rlim_cur, *used * page));
+  }
+  return available;
 }
 
 double processor_seconds() {

@@ -111,6 +111,11 @@ std::size_t terminal_columns();
 // The largest resident size this process has had, in bytes; 0 where the system does not say.
 std::size_t peak_memory_bytes();
 
+// How much more memory this process can have without anything being swapped out, in bytes: what the
+// machine, its control group and the limit on its address space leave. The largest number there is
+// where the system does not say.
+std::size_t available_memory_bytes();
+
 // Seconds of processor time this process has used, all threads together.
 double processor_seconds();
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -26,9 +27,11 @@ constexpr const char* way_out = "remove it to begin anew";
   throw InputError(fmt::format("checkpoint {}: {}", path.string(), what));
 }
 
-// The fits as the file has them: arrays over rounds and nodes.
+// The fits as the file has them: arrays over rounds and the entries of which any fit is finished.
+// What is not finished takes no room: a stop must not wait for gigabytes of it.
 struct Arrays {
-  std::vector<double> matrix;  // row-major
+  std::vector<std::int32_t> entry;  // flat
+  std::vector<double> matrix;       // row-major
   std::vector<double> loss;
   std::vector<std::int32_t> steps;
   std::vector<std::uint8_t> status;
@@ -36,8 +39,13 @@ struct Arrays {
 
 Arrays to_arrays(const FinishedFits& fits) {
   Arrays arrays;
+  for (std::size_t flat = 0; !fits.rounds.empty() && flat < fits.rounds.front().size(); ++flat)
+    if (std::any_of(fits.rounds.begin(), fits.rounds.end(),
+                    [=](auto& round) { return round[flat].status != Status::skipped; }))
+      arrays.entry.push_back(static_cast<std::int32_t>(flat));
   for (const std::vector<FittedEntry>& round : fits.rounds)
-    for (const FittedEntry& entry : round) {
+    for (const std::int32_t flat : arrays.entry) {
+      const FittedEntry& entry = round[static_cast<std::size_t>(flat)];
       for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)
           arrays.matrix.push_back(entry.matrix(row, column));
@@ -66,6 +74,17 @@ FittedEntry entry_of(const Arrays& arrays, std::size_t i, const fs::path& path) 
     refuse(path,
            fmt::format("dataset fit/matrix is not finite where a fit is finished; {}", way_out));
   return entry;
+}
+
+void require_entries(const std::vector<std::int32_t>& entries, std::size_t nodes,
+                     const fs::path& path) {
+  std::int64_t before = -1;
+  for (const std::int32_t entry : entries) {
+    if (entry <= before || static_cast<std::size_t>(entry) >= nodes)
+      refuse(path, fmt::format("dataset fit/entry holds {} after {}; allowed: rising, up to {}; {}",
+                               entry, before, nodes - 1, way_out));
+    before = entry;
+  }
 }
 
 std::vector<std::uint8_t> flags_of(const std::vector<bool>& needed) {
@@ -103,18 +122,19 @@ void require_same_run(const Hdf5Input& file, const Config& config, const std::ve
 void write_checkpoint(const Config& config, const std::vector<bool>& needed,
                       const FinishedFits& fits, const fs::path& path) {
   const Arrays arrays = to_arrays(fits);
-  const std::size_t rounds = fits.rounds.size(), nodes = needed.size();
+  const std::size_t rounds = fits.rounds.size(), listed = arrays.entry.size();
   Hdf5Output file(path.string());
   file.text(root, "format", checkpoint_format);
   file.number(root, "format_version", std::int32_t{checkpoint_format_version});
   file.text(root, "generator", generator());
   file.text(root, "config", to_toml(config));
-  file.values<std::uint8_t>("needed", {nodes}, flags_of(needed));
+  file.values<std::uint8_t>("needed", {needed.size()}, flags_of(needed));
   file.group("fit");
-  file.values<double>("fit/matrix", {rounds, nodes, 3, 3}, arrays.matrix);
-  file.values<double>("fit/loss", {rounds, nodes}, arrays.loss);
-  file.values<std::int32_t>("fit/steps", {rounds, nodes}, arrays.steps);
-  file.values<std::uint8_t>("fit/status", {rounds, nodes}, arrays.status);
+  file.values<std::int32_t>("fit/entry", {listed}, arrays.entry);
+  file.values<double>("fit/matrix", {rounds, listed, 3, 3}, arrays.matrix);
+  file.values<double>("fit/loss", {rounds, listed}, arrays.loss);
+  file.values<std::int32_t>("fit/steps", {rounds, listed}, arrays.steps);
+  file.values<std::uint8_t>("fit/status", {rounds, listed}, arrays.status);
   write_file(path, file.finish());
 }
 
@@ -124,16 +144,20 @@ FinishedFits read_checkpoint_unguarded(const Config& config, const std::vector<b
   require_format(file, path);
   require_same_run(file, config, needed, path);
   const std::size_t rounds = 1 + static_cast<std::size_t>(sweep_count(config.fit));
-  const std::size_t nodes = needed.size();
-  const Arrays arrays{file.values<double>("fit/matrix", {rounds, nodes, 3, 3}),
-                      file.values<double>("fit/loss", {rounds, nodes}),
-                      file.values<std::int32_t>("fit/steps", {rounds, nodes}),
-                      file.values<std::uint8_t>("fit/status", {rounds, nodes})};
+  const std::vector<std::size_t> shape = file.shape("fit/entry");
+  const std::size_t listed = shape.empty() ? 0 : shape.front();
+  const Arrays arrays{file.values<std::int32_t>("fit/entry", {listed}),
+                      file.values<double>("fit/matrix", {rounds, listed, 3, 3}),
+                      file.values<double>("fit/loss", {rounds, listed}),
+                      file.values<std::int32_t>("fit/steps", {rounds, listed}),
+                      file.values<std::uint8_t>("fit/status", {rounds, listed})};
+  require_entries(arrays.entry, needed.size(), path);
   FinishedFits fits;
   for (std::size_t round = 0; round < rounds; ++round) {
-    std::vector<FittedEntry>& entries = fits.rounds.emplace_back();
-    for (std::size_t flat = 0; flat < nodes; ++flat)
-      entries.push_back(entry_of(arrays, round * nodes + flat, path));
+    std::vector<FittedEntry>& entries = fits.rounds.emplace_back(needed.size());
+    for (std::size_t i = 0; i < listed; ++i)
+      entries[static_cast<std::size_t>(arrays.entry[i])] =
+          entry_of(arrays, round * listed + i, path);
   }
   return fits;
 }

@@ -13,7 +13,7 @@ namespace ltc {
 
 // The `format` and `format_version` attributes of checkpoints.
 inline constexpr const char* checkpoint_format = "ltc-checkpoint";
-inline constexpr int checkpoint_format_version = 1;
+inline constexpr int checkpoint_format_version = 2;
 
 // Writes the file whole or not at all, bit exact. `needed` says which entries the run makes. Throws
 // IoError where the system refuses.

@@ -2,9 +2,12 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "fit/fit_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "fit/fit_journal.h"
@@ -41,6 +44,20 @@ std::vector<std::size_t> recall_known(const FitJournal* journal, int round,
     if (!journal || !journal->recall(round, flat, results[flat]))
       unknown.push_back(flat);
   return unknown;
+}
+
+// In an order that takes from everywhere: how costly entries are changes along the axes, and the
+// pace of the first ones is to tell how long all of them take. The points of a golden-ratio
+// lattice.
+std::vector<std::size_t> spread_out(const std::vector<std::size_t>& entries) {
+  const std::size_t count = entries.size();
+  auto stride = static_cast<std::size_t>(static_cast<double>(count) * (std::numbers::phi - 1));
+  while (std::gcd(std::max(stride, std::size_t{1}), count) != 1)
+    ++stride;
+  std::vector<std::size_t> result(count);
+  for (std::size_t i = 0, at = 0; i < count; ++i, at = (at + stride) % count)
+    result[i] = entries[at];
+  return result;
 }
 
 // Steps of the watched entry go to its watch, those of the others nowhere.
@@ -129,7 +146,8 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
   const auto fit_all = [&](std::string_view stage, int round,
                            const std::function<FitRequest(std::size_t)>& request,
                            std::vector<FittedEntry>& results) {
-    const std::vector<std::size_t> unknown = recall_known(journal, round, to_fit, results);
+    const std::vector<std::size_t> unknown =
+        spread_out(recall_known(journal, round, to_fit, results));
     parallel_for_each<FitWorkspacePointer>(
         stage, unknown.size(), threads, progress, make_fit_workspace,
         [&](std::size_t i, FitWorkspacePointer& workspace) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -81,6 +82,27 @@ Eigen::Matrix3d damped_step(const ModelValue& value, const FreeEntries& free, do
   for (int i = 0; i < count; ++i)
     step(index[i] / 3, index[i] % 3) = solution[i] * scale[i];
   return step;
+}
+
+// A lobe much thinner than it is wide is a line to its samples: they hardly feel the length of the
+// thin column, and a step that turns it round may leave it anywhere near zero. A column shorter
+// than this share of the first-order lobe's is lengthened where M has a larger condition number
+// than this, half of where single precision cannot invert it.
+constexpr double short_column_share = 0.005, most_condition = 5e6;
+
+void lengthen_vanishing_columns(const LobeFrame& frame, Eigen::Matrix3d& p) {
+  const Eigen::Vector3d roughness(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
+  const Eigen::Vector3d singular =
+      Eigen::JacobiSVD<Eigen::Matrix3d>(p * roughness.asDiagonal()).singularValues();
+  const double excess = singular[0] / singular[2] / most_condition;
+  if (!(excess > 1))
+    return;
+  for (int column = 0; column < 2; ++column) {
+    const double length = p.col(column).norm();
+    const double least = short_column_share * frame.first_order.col(column).norm();
+    if (length > 0 && length < least)
+      p.col(column) *= std::min(excess, least / length);
+  }
 }
 
 // What accepted steps have shown of the true curvature. Reweighted least squares majorises the L1
@@ -184,6 +206,7 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
       break;
     }
   }
+  lengthen_vanishing_columns(frame, best.frame_matrix);
   return best;
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/parallel.h"
 #include "core/random.h"
 
 namespace ltc {
@@ -48,37 +49,61 @@ Matrix9 jacobian(const FrameOfStored& map) {
   return result;
 }
 
+bool complete(const Interpolation& corners, const std::vector<bool>& has_values) {
+  for (std::size_t corner = 0; corner < 16; ++corner)
+    if (corners.weights[corner] != 0 && !has_values[corners.nodes[corner]])
+      return false;
+  return true;
+}
+
+// The lobes that a table can be asked for, cell by cell: sorted by the cell's first node, which
+// tells the others, and within a cell as they came.
+std::vector<std::size_t> ordered_by_cell(const Grid& grid, const std::vector<bool>& has_values,
+                                         const std::vector<GgxLobe>& lobes,
+                                         const Reduction& reduction, const Progress* progress) {
+  const std::size_t left_out = grid.size();
+  std::vector<std::size_t> first_node(lobes.size()), begin(grid.size() + 1);
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    if (progress)
+      progress->throw_if_stopped();
+    const Interpolation corners = interpolation(grid, reduction.fold(lobes[i]).lobe);
+    const bool asked = reduction.covers(lobes[i]) && complete(corners, has_values);
+    first_node[i] = asked ? corners.nodes[0] : left_out;
+    if (asked)
+      ++begin[corners.nodes[0] + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::size_t> order(begin.back());
+  for (std::size_t i = 0; i < lobes.size(); ++i)
+    if (first_node[i] != left_out)
+      order[begin[first_node[i]]++] = i;
+  return order;
+}
+
 }  // namespace
 
 QuerySystem::QuerySystem(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
                          const std::vector<GgxLobe>& lobes, const std::vector<double>& weights,
-                         const QuerySampling& sampling, double shift)
+                         const QuerySampling& sampling, double shift, const Progress* progress)
     : storage_(storage), node_count_(grid.size()) {
   make_sets(sampling, shift);
-  std::vector<Interpolation> corners;
-  std::vector<std::size_t> order;
-  for (const GgxLobe& lobe : lobes)
-    corners.push_back(interpolation(grid, lobe));
-  for (std::size_t i = 0; i < lobes.size(); ++i) {
-    bool complete = true;
-    for (std::size_t corner = 0; corner < 16; ++corner)
-      complete =
-          complete && (corners[i].weights[corner] == 0 || has_values[corners[i].nodes[corner]]);
-    if (complete)
-      order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return corners[a].nodes < corners[b].nodes;
-  });
+  const Reduction reduction(grid);
+  const std::vector<std::size_t> order =
+      ordered_by_cell(grid, has_values, lobes, reduction, progress);
   corners_of_node_.resize(node_count_);
+  queries_.reserve(order.size());
   for (const std::size_t i : order) {
-    if (cells_.empty() || cells_.back().nodes != corners[i].nodes) {
+    const GgxLobe folded = reduction.fold(lobes[i]).lobe;
+    const Interpolation corners = interpolation(grid, folded);
+    if (cells_.empty() || cells_.back().nodes != corners.nodes) {
+      if (progress)
+        progress->throw_if_stopped();
       for (std::size_t corner = 0; corner < 16; ++corner)
-        corners_of_node_[corners[i].nodes[corner]].push_back({cells_.size(), corner});
-      cells_.push_back({corners[i].nodes, queries_.size(), queries_.size()});
+        corners_of_node_[corners.nodes[corner]].push_back({cells_.size(), corner});
+      cells_.push_back({corners.nodes, queries_.size(), queries_.size()});
     }
     // Neighbours in a cell are measured with different sets.
-    queries_.push_back({lobes[i], corners[i].weights, weights[i], queries_.size() % set_count});
+    queries_.push_back({folded, corners.weights, weights[i], queries_.size() % set_count});
     cells_.back().last = queries_.size();
   }
   models_.resize(queries_.size());
@@ -165,51 +190,61 @@ double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, int thr
                          [](double sum, const Model& model) { return sum + model.loss; });
 }
 
-template <typename Value, typename Fill>
-void QuerySystem::gather(std::vector<Value>& result, int threads, const Value& zero,
-                         Fill&& fill) const {
-  std::vector<std::array<Value, 16>> sums(cells_.size());
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    sums[c].fill(zero);
-    for (std::size_t q = cells_[c].first; q < cells_[c].last; ++q)
-      fill(cells_[c], queries_[q], models_[q], sums[c]);
-  }
+template <typename Value, typename Part>
+void QuerySystem::gather(std::vector<Value>& result, int threads, const Progress* progress,
+                         const Value& zero, Part&& part) const {
   result.assign(node_count_, zero);
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t node = 0; node < node_count_; ++node)
-    for (const Corner& at : corners_of_node_[node])
-      result[node] += sums[at.cell][at.corner];
+  parallel_for(node_count_, threads, progress, [&](std::size_t node) {
+    for (const Corner& at : corners_of_node_[node]) {
+      Value of_cell = zero;
+      for (std::size_t q = cells_[at.cell].first; q < cells_[at.cell].last; ++q)
+        part(q, queries_[q].weights[at.corner], of_cell);
+      result[node] += of_cell;
+    }
+  });
 }
 
-void QuerySystem::gradient(NodeVectors& result, int threads) const {
-  gather<Vector9>(result, threads, Vector9::Zero(),
-                  [](const Cell&, const Query& query, const Model& model, auto& sums) {
-                    for (std::size_t corner = 0; corner < 16; ++corner)
-                      sums[corner] += query.weights[corner] * model.gradient;
+void QuerySystem::gradient(NodeVectors& result, int threads, const Progress* progress) const {
+  gather<Vector9>(
+      result, threads, progress, Vector9::Zero(),
+      [&](std::size_t q, double weight, Vector9& sum) { sum += weight * models_[q].gradient; });
+}
+
+void QuerySystem::multiply(const NodeVectors& step, NodeVectors& result, int threads,
+                           const Progress* progress) const {
+  NodeVectors pulled(queries_.size());
+  parallel_for(cells_.size(), threads, progress, [&](std::size_t c) {
+    for (std::size_t q = cells_[c].first; q < cells_[c].last; ++q) {
+      Vector9 interpolated = Vector9::Zero();
+      for (std::size_t corner = 0; corner < 16; ++corner)
+        interpolated += queries_[q].weights[corner] * step[cells_[c].nodes[corner]];
+      // Into a value of its own: the order in which Eigen sums depends on where the result lies.
+      alignas(16) Vector9 product;
+      product = models_[q].curvature.lazyProduct(interpolated);
+      pulled[q] = product;
+    }
+  });
+  gather<Vector9>(result, threads, progress, Vector9::Zero(),
+                  [&](std::size_t q, double weight, Vector9& sum) { sum += weight * pulled[q]; });
+}
+
+void QuerySystem::diagonal_blocks(std::vector<Matrix9>& blocks, int threads,
+                                  const Progress* progress) const {
+  gather<Matrix9>(blocks, threads, progress, Matrix9::Zero(),
+                  [&](std::size_t q, double weight, Matrix9& sum) {
+                    sum += weight * weight * models_[q].curvature;
                   });
 }
 
-void QuerySystem::multiply(const NodeVectors& step, NodeVectors& result, int threads) const {
-  gather<Vector9>(result, threads, Vector9::Zero(),
-                  [&](const Cell& cell, const Query& query, const Model& model, auto& sums) {
-                    Vector9 interpolated = Vector9::Zero();
-                    for (std::size_t corner = 0; corner < 16; ++corner)
-                      interpolated += query.weights[corner] * step[cell.nodes[corner]];
-                    Vector9 pulled;
-                    pulled = model.curvature.lazyProduct(interpolated);
-                    for (std::size_t corner = 0; corner < 16; ++corner)
-                      sums[corner] += query.weights[corner] * pulled;
-                  });
-}
-
-void QuerySystem::diagonal_blocks(std::vector<Matrix9>& blocks, int threads) const {
-  gather<Matrix9>(blocks, threads, Matrix9::Zero(),
-                  [](const Cell&, const Query& query, const Model& model, auto& sums) {
-                    for (std::size_t corner = 0; corner < 16; ++corner)
-                      sums[corner] +=
-                          query.weights[corner] * query.weights[corner] * model.curvature;
-                  });
+std::size_t QuerySystem::memory_bytes(const QuerySampling& sampling, std::size_t queries,
+                                      std::size_t cells, std::size_t nodes) {
+  const auto directions = static_cast<std::size_t>(sampling.directions);
+  const std::size_t target = sizeof(BinnedTarget) + directions * (2 + 2 * bins) * sizeof(float);
+  const std::size_t query =
+      sizeof(Query) + 2 * sizeof(Model) + sizeof(Vector9) + target + 2 * sizeof(std::size_t);
+  // A node's corners grow by doubling, and may have just grown.
+  return queries * query + cells * 2 * (sizeof(Cell) + 16 * sizeof(Corner)) +
+         nodes * sizeof(std::vector<Corner>);
 }
 
 }  // namespace ltc

@@ -27,11 +27,16 @@ namespace ltc {
 
 class QuerySystem {
  public:
-  // The look-ups of `lobes` with weights c_p. Those that need a node without values are left out.
-  // Systems of different `shift` in [0, 1) share no samples.
+  // The look-ups of `lobes` with weights c_p. Those beyond the axes, which no table serves, and
+  // those that need a node without values are left out. Systems of different `shift` in [0, 1)
+  // share no samples.
   QuerySystem(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
               const std::vector<GgxLobe>& lobes, const std::vector<double>& weights,
-              const QuerySampling& sampling, double shift);
+              const QuerySampling& sampling, double shift, const Progress* progress = nullptr);
+
+  // What so many queries in so many cells need, about, and while they are multiplied with.
+  static std::size_t memory_bytes(const QuerySampling& sampling, std::size_t queries,
+                                  std::size_t cells, std::size_t nodes);
 
   std::size_t size() const { return queries_.size(); }
 
@@ -40,11 +45,13 @@ class QuerySystem {
   double evaluate(const std::vector<Eigen::Matrix3d>& stored, int threads, Progress* progress);
   void adopt() { models_.swap(evaluated_); }
 
-  // Of the model in use: gradient, curvature times a step, the curvature's blocks on the diagonal.
-  // Sums have a fixed order: the same bits for any number of threads.
-  void gradient(NodeVectors& result, int threads) const;
-  void multiply(const NodeVectors& step, NodeVectors& result, int threads) const;
-  void diagonal_blocks(std::vector<Matrix9>& blocks, int threads) const;
+  // Throw Interrupted too. Of the model in use: gradient, curvature times a step, the curvature's
+  // blocks on the diagonal. Sums have a fixed order: the same bits for any number of threads.
+  void gradient(NodeVectors& result, int threads, const Progress* progress = nullptr) const;
+  void multiply(const NodeVectors& step, NodeVectors& result, int threads,
+                const Progress* progress = nullptr) const;
+  void diagonal_blocks(std::vector<Matrix9>& blocks, int threads,
+                       const Progress* progress = nullptr) const;
 
  private:
   struct Query {
@@ -81,9 +88,10 @@ class QuerySystem {
                   BinnedTarget& binned) const;
   void evaluate_query(const Query& query, const Eigen::Matrix3d& interpolated, BinnedTarget& binned,
                       Buffers& buffers, Model& model) const;
-  // Sums at every node what `fill` adds to the corners of its cells.
-  template <typename Value, typename Fill>
-  void gather(std::vector<Value>& result, int threads, const Value& zero, Fill&& fill) const;
+  // Sums at every node what `part` adds for each query of its cells.
+  template <typename Value, typename Part>
+  void gather(std::vector<Value>& result, int threads, const Progress* progress, const Value& zero,
+              Part&& part) const;
 
   struct Corner {
     std::size_t cell, corner;

@@ -36,18 +36,24 @@ struct RefineReport {
 };
 
 // Refines `stored`, one S a node of `grid` with third column of unit length and positive
-// determinant. Queries are drawn from `asked` in turn, at least one range; those that need a node
-// without values are left out. Nodes that are not `movable` stay as they are. Throws Interrupted
-// when `progress` asks for a stop. The same bits for any number of threads.
+// determinant. Queries are drawn from `asked` in turn, at least one range; those beyond the axes
+// and those that need a node without values are left out. Nodes that are not `movable` stay as they
+// are. Throws Interrupted when `progress` asks for a stop. The same bits for any number of threads.
 RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
                     const std::vector<bool>& movable, const std::vector<QueryRange>& asked,
                     const RefineSettings& settings, int threads, Progress* progress,
                     std::vector<Eigen::Matrix3d>& stored);
 
+// What refine() takes of memory, about.
+std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& has_values,
+                                    const RefineSettings& settings);
+
 // The sliced-Wasserstein loss of every node's own lobe at `stored`, as the solvers measure it (2048
 // samples, 32 directions); NaN where a node has no values.
+// Throws Interrupted.
 std::vector<double> node_losses(const Grid& grid, Storage storage,
                                 const std::vector<bool>& has_values,
-                                const std::vector<Eigen::Matrix3d>& stored, int threads);
+                                const std::vector<Eigen::Matrix3d>& stored, int threads,
+                                Progress* progress);
 
 }  // namespace ltc

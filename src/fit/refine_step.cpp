@@ -4,6 +4,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/parallel.h"
+
 namespace ltc {
 namespace {
 
@@ -25,24 +27,24 @@ double dot(const NodeVectors& a, const NodeVectors& b) {
 class StepSystem {
  public:
   StepSystem(const QuerySystem& queries, const NodeSpace& space,
-             const std::vector<Eigen::Matrix3d>& stored, double damping, int threads)
-      : queries_(queries), space_(space), stored_(stored), threads_(threads) {
+             const std::vector<Eigen::Matrix3d>& stored, double damping, int threads,
+             const Progress* progress)
+      : queries_(queries), space_(space), stored_(stored), threads_(threads), progress_(progress) {
     std::vector<Matrix9> blocks;
-    queries.diagonal_blocks(blocks, threads);
+    queries.diagonal_blocks(blocks, threads, progress);
     Vector9 mean = Vector9::Zero();
     for (const Matrix9& block : blocks)
       mean += block.diagonal() / static_cast<double>(blocks.size());
     damped_diagonal_.resize(blocks.size());
     inverse_blocks_.resize(blocks.size());
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::size_t node = 0; node < blocks.size(); ++node) {
+    parallel_for(blocks.size(), threads, progress, [&](std::size_t node) {
       damped_diagonal_[node] = damping * (blocks[node].diagonal() + least_curvature * mean);
       Matrix9 block = blocks[node];
       block.diagonal() += damped_diagonal_[node];
       inverse_blocks_[node] = block.ldlt().solve(Matrix9::Identity());
       if (!inverse_blocks_[node].allFinite())
         inverse_blocks_[node].setZero();
-    }
+    });
   }
 
   NodeVectors solve(const NodeVectors& right) const {
@@ -72,7 +74,7 @@ class StepSystem {
 
  private:
   void multiply(const NodeVectors& step, NodeVectors& product) const {
-    queries_.multiply(step, product, threads_);
+    queries_.multiply(step, product, threads_, progress_);
     for (std::size_t node = 0; node < step.size(); ++node)
       product[node] += damped_diagonal_[node].cwiseProduct(step[node]);
     space_.project(stored_, product);
@@ -89,6 +91,7 @@ class StepSystem {
   const NodeSpace& space_;
   const std::vector<Eigen::Matrix3d>& stored_;
   int threads_;
+  const Progress* progress_;
   NodeVectors damped_diagonal_;
   std::vector<Matrix9> inverse_blocks_;
 };
@@ -97,12 +100,12 @@ class StepSystem {
 
 NodeVectors refinement_step(const QuerySystem& queries, const NodeSpace& space,
                             const std::vector<Eigen::Matrix3d>& stored, double damping,
-                            double overshoot, int threads) {
+                            double overshoot, int threads, const Progress* progress) {
   NodeVectors downhill;
-  queries.gradient(downhill, threads);
+  queries.gradient(downhill, threads, progress);
   for (Vector9& value : downhill)
     value = -value;
-  NodeVectors step = StepSystem(queries, space, stored, damping, threads).solve(downhill);
+  NodeVectors step = StepSystem(queries, space, stored, damping, threads, progress).solve(downhill);
   for (Vector9& value : step)
     value *= overshoot;
   return step;

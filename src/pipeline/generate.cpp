@@ -2,17 +2,21 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "pipeline/generate.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "align/align.h"
 #include "brdf/albedo.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "core/version.h"
 #include "fit/fit_table.h"
 #include "pipeline/post_process.h"
 #include "postprocess/normalise.h"
+#include "table/query_range.h"
 
 namespace ltc {
 namespace {
@@ -53,24 +57,57 @@ void post_process_all(const Grid& grid, const std::vector<FittedEntry>& entries,
   }
 }
 
+bool has_values_in(const Table* table, std::size_t flat) {
+  return table && has_values(table->status[flat]);
+}
+
+// What making the table takes of memory, about: its refinement, and the rest.
+struct MemoryNeeded {
+  std::size_t table, refinement;
+};
+MemoryNeeded memory_needed(const Config& config, const std::vector<bool>& needed,
+                           const RefineContext& context) {
+  // The table, and its values again in every file that is made of it; fits, those of a sweep, and
+  // those in the journal and in a checkpoint.
+  constexpr std::size_t of_value = 5 * (12 * sizeof(float) + 4);
+  const auto fits = static_cast<std::size_t>(2 + 2 * (1 + sweep_count(config.fit)));
+  MemoryNeeded memory{config.grid.size() * (of_value + fits * sizeof(FittedEntry)), 0};
+  if (config.refine.steps == 0)
+    return memory;
+  std::vector<bool> present = needed;
+  for (std::size_t flat = 0; flat < present.size(); ++flat)
+    present[flat] = present[flat] || has_values_in(context.existing, flat);
+  memory.refinement = refinement_memory_bytes(config.grid, present, config.refine);
+  return memory;
+}
+
+// What is refined on: what is asked for, as far as the table serves it.
+std::vector<QueryRange> ranges_served(const Config& config, const std::vector<QueryRange>& asked) {
+  if (asked.empty())
+    return {query_range_of(config.grid, config.refine.range)};
+  std::vector<QueryRange> served;
+  for (const QueryRange& range : asked)
+    served.push_back(clamped_range(config.grid, range));
+  return served;
+}
+
 // Moves the nodes' matrices for the sake of what lies between them, and states their losses anew.
-RefineReport refine_nodes(const Config& config, const RefineContext& context, int threads,
-                          Progress* progress, Table& table) {
+RefineReport refine_nodes(const Config& config, const RefineContext& context,
+                          const std::vector<QueryRange>& ranges, int threads, Progress* progress,
+                          Table& table) {
   const std::size_t count = table.grid.size();
   std::vector<Eigen::Matrix3d> stored(count);
   std::vector<bool> present(count), movable(count);
   for (std::size_t flat = 0; flat < count; ++flat) {
     const double alpha = table.grid.alpha.nodes[table.grid.node(flat).alpha];
     const bool made = has_values(table.status[flat]);
-    const bool kept = !made && context.existing && has_values(context.existing->status[flat]);
+    const bool kept = !made && has_values_in(context.existing, flat);
     stored[flat] = (kept ? *context.existing : table).stored_at(flat);
     present[flat] = made || kept;
     movable[flat] = made && !(config.refine.keep_smoothest && alpha <= table.grid.alpha_min);
   }
-  const RefineReport report =
-      refine(table.grid, table.storage, present, movable,
-             context.asked.empty() ? std::vector{config.refine.range} : context.asked,
-             config.refine, threads, progress, stored);
+  const RefineReport report = refine(table.grid, table.storage, present, movable, ranges,
+                                     config.refine, threads, progress, stored);
   if (!report.kept)
     return report;
   for (std::size_t flat = 0; flat < count; ++flat)
@@ -79,7 +116,7 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context, in
   for (std::size_t flat = 0; flat < count; ++flat)
     stored[flat] = table.stored_at(flat);
   const std::vector<double> losses =
-      node_losses(table.grid, table.storage, movable, stored, threads);
+      node_losses(table.grid, table.storage, movable, stored, threads, progress);
   for (std::size_t flat = 0; flat < count; ++flat)
     if (movable[flat])
       table.sw_loss[flat] = static_cast<float>(losses[flat]);
@@ -107,6 +144,27 @@ void integrate_albedos(const Grid& grid, const std::vector<bool>& needed, int th
 
 }  // namespace
 
+// Better now than after hours, and better than to bring down the machine.
+void require_memory(const Config& config, const std::vector<bool>& needed,
+                    const RefineContext& context) {
+  const MemoryNeeded memory = memory_needed(config, needed, context);
+  const std::size_t available = platform::available_memory_bytes();
+  const auto gigabytes = [](std::size_t bytes) { return static_cast<double>(bytes) / 1e9; };
+  if (memory.table > available)
+    throw InputError(
+        fmt::format("a table of {} entries needs about {:.3g} GB of memory, and {:.3g} GB are "
+                    "available; fewer nodes need less",
+                    config.grid.size(), gigabytes(memory.table), gigabytes(available)));
+  if (memory.table + memory.refinement > available)
+    throw InputError(fmt::format(
+        "refining a table of {} entries needs about {:.3g} GB of memory, and {:.3g} GB are "
+        "available; a smaller refine.queries_per_cell (here {}) or refine.directions (here {}) "
+        "needs less, refine.steps = 0 needs {:.3g} GB in all",
+        config.grid.size(), gigabytes(memory.table + memory.refinement), gigabytes(available),
+        config.refine.queries_per_cell, config.refine.sampling.directions,
+        gigabytes(memory.table)));
+}
+
 Table generate_table(const Config& config, int threads, Progress* progress,
                      GenerateReport* report) {
   return generate_table(config, std::vector<bool>(config.grid.size(), true), threads, progress,
@@ -116,6 +174,7 @@ Table generate_table(const Config& config, int threads, Progress* progress,
 Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
                      Progress* progress, GenerateReport* report, FitJournal* journal,
                      const RefineContext& context) {
+  require_memory(config, needed, context);
   GenerateReport unread;
   GenerateReport& result = report ? *report : unread;
   auto lap = std::chrono::steady_clock::now();
@@ -142,7 +201,10 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
   finish_stage("post-process");
   table.refined = false;
   if (config.refine.steps > 0 && result.fits > 0) {
-    result.refine = refine_nodes(config, context, threads, progress, table);
+    const std::vector<QueryRange> ranges = ranges_served(config, context.asked);
+    if (context.asked.empty() && !same_range(ranges.front(), config.refine.range))
+      result.range_served = ranges.front();
+    result.refine = refine_nodes(config, context, ranges, threads, progress, table);
     table.refined = result.refine->kept;
     finish_stage("refine");
   }

@@ -23,6 +23,8 @@ struct GenerateReport {
   double largest_zeroed = 0;  // largest |entry| that equation (16) set to zero, unit third column
   std::size_t largest_zeroed_entry = 0;  // where
   std::optional<RefineReport> refine;    // where the config asks for it
+  // What of the config's range was refined on, where the table serves not all of it.
+  std::optional<QueryRange> range_served;
 };
 
 class FitJournal;  // fit/fit_journal.h
@@ -34,9 +36,14 @@ struct RefineContext {
                                     // part in look-ups and stay as they are
 };
 
+// Throws InputError, with what is needed and what there is, where making the table would take more
+// memory than is available.
+void require_memory(const Config& config, const std::vector<bool>& needed,
+                    const RefineContext& context = {});
+
 // Makes the entries of `config`'s table that are `needed` (one flag a node) with `threads` >= 1
-// OpenMP threads; the same bits for any number. Throws InputError for a config that cannot be met,
-// Interrupted when progress asked for a stop. `journal` as for fit_table.
+// OpenMP threads; the same bits for any number. Throws InputError for a config that cannot be met
+// and as require_memory, Interrupted when progress asked for a stop. `journal` as for fit_table.
 Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
                      Progress* progress, GenerateReport* report, FitJournal* journal = nullptr,
                      const RefineContext& context = {});

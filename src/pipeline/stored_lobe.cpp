@@ -65,11 +65,11 @@ StoredLobe stored_entry(const Table& table, std::size_t flat, const Progress* pr
 }
 
 StoredLobe stored_query(const Table& table, const GgxLobe& lobe, const Progress* progress) {
-  const GgxLobe folded = fold(table.grid, lobe).lobe;
-  const Interpolation taken = interpolation(table.grid, folded);
+  const Reduction reduction(table.grid);
+  const Interpolation taken = interpolation(table.grid, reduction.fold(lobe).lobe);
   StoredLobe stored;
   stored.lobe = lobe;
-  stored.within_axes = covers(table.grid, folded);
+  stored.within_axes = reduction.covers(lobe);
   for (std::size_t i = 0; i < taken.nodes.size(); ++i)
     if (taken.weights[i] != 0)
       stored.nodes.push_back({taken.nodes[i], taken.weights[i], 0});

@@ -38,9 +38,9 @@ html::Verdict verdict_of(const InvariantResult& result) {
 }
 
 html::Verdict verdict_of(const ThresholdCheck& check) {
-  return !check.passed                                      ? html::Verdict::failed
-         : std::isnan(check.value) || !check.reason.empty() ? html::Verdict::not_checked
-                                                            : html::Verdict::passed;
+  return !check.passed         ? html::Verdict::failed
+         : check.has_verdict() ? html::Verdict::passed
+                               : html::Verdict::not_checked;
 }
 
 std::string sentence(const Validation& validation) {

@@ -4,48 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <utility>
 
 namespace ltc {
 namespace {
-
-constexpr double quarter_turn = std::numbers::pi / 2;
-constexpr double half_turn = std::numbers::pi;
-constexpr double full_turn = 2 * std::numbers::pi;
-
-// The same azimuth in [0, 2 pi).
-double wrapped(double phi_radians) {
-  double phi = std::fmod(phi_radians, full_turn);
-  if (phi < 0)
-    phi += full_turn;
-  // A tiny negative azimuth rounds to the full turn itself.
-  return phi >= full_turn ? 0.0 : phi;
-}
-
-// Equation (13): the azimuth of the first quadrant, and the signs of x and y that lead back.
-struct FoldedAzimuth {
-  double phi_radians;
-  double sign_x, sign_y;
-};
-FoldedAzimuth fold_azimuth(double phi_radians) {
-  const double phi = wrapped(phi_radians);
-  if (phi < quarter_turn)
-    return {phi, 1, 1};
-  if (phi < half_turn)
-    return {half_turn - phi, -1, 1};
-  if (phi < half_turn + quarter_turn)
-    return {phi - half_turn, -1, -1};
-  return {full_turn - phi, 1, -1};
-}
-
-// Equation (13) alone.
-FoldedLobe mirrored(const GgxLobe& lobe) {
-  const FoldedAzimuth azimuth = fold_azimuth(lobe.phi_radians);
-  FoldedLobe folded{lobe, Eigen::Vector3d(azimuth.sign_x, azimuth.sign_y, 1).asDiagonal()};
-  folded.lobe.phi_radians = azimuth.phi_radians;
-  return folded;
-}
 
 // Where a value stands between two neighbouring nodes of an axis.
 struct Bracket {
@@ -62,23 +23,6 @@ Bracket bracket(const Axis& axis, double value) {
   return {{lower, upper}, {1 - weight, weight}};
 }
 
-// The ratio of the roughnesses as asked for: `alpha_min` bounds the lobe at a node, not the place
-// of a node, so a roughness below it belongs between the nodes that its own ratio names. At zero
-// roughness every ratio is the same lobe; 1 is the one that takes no lower bound to be so.
-double roughness_ratio(const GgxLobe& folded) {
-  return folded.alpha_x == 0 ? 1.0 : folded.alpha_y / folded.alpha_x;
-}
-
-// Where a folded lobe stands on the second axis.
-double second_roughness(const Grid& grid, const GgxLobe& folded) {
-  return grid.layout == Layout::alphax_alphay ? folded.alpha_y : roughness_ratio(folded);
-}
-
-bool within(const Axis& axis, double value) {
-  constexpr double no_matter = 1e-3;
-  return value >= axis.first() - no_matter && value <= axis.last() + no_matter;
-}
-
 // What the query's roughness is to the table: as at the nodes, never below alpha_min.
 GgxLobe bounded_below(GgxLobe lobe, double alpha_min) {
   lobe.alpha_x = std::max(lobe.alpha_x, alpha_min);
@@ -88,23 +32,10 @@ GgxLobe bounded_below(GgxLobe lobe, double alpha_min) {
 
 }  // namespace
 
-FoldedLobe fold(const Grid& grid, const GgxLobe& lobe) {
-  return grid.layout == Layout::alphax_alphay ? mirrored(lobe) : fold(lobe);
-}
-
-FoldedLobe fold(const GgxLobe& lobe) {
-  FoldedLobe folded = mirrored(lobe);
-  if (lobe.alpha_y > lobe.alpha_x) {
-    std::swap(folded.lobe.alpha_x, folded.lobe.alpha_y);
-    folded.lobe.phi_radians = quarter_turn - folded.lobe.phi_radians;
-    // Equation (14) stands inside equation (13), so the swap applies first: its columns swap here.
-    folded.unfold.col(0).swap(folded.unfold.col(1));
-  }
-  return folded;
-}
-
 Interpolation interpolation(const Grid& grid, const GgxLobe& folded) {
   const Bracket alpha = bracket(grid.alpha, folded.alpha_x);
+  // The roughness as asked for: `alpha_min` bounds the lobe at a node, not the place of a node, so
+  // one below it belongs between the nodes that its own value or ratio names.
   const Bracket lambda = bracket(grid.lambda, second_roughness(grid, folded));
   const Bracket theta = bracket(grid.theta, folded.theta_radians);
   const Bracket phi = bracket(grid.phi, folded.phi_radians);
@@ -119,14 +50,8 @@ Interpolation interpolation(const Grid& grid, const GgxLobe& folded) {
   return result;
 }
 
-bool covers(const Grid& grid, const GgxLobe& folded) {
-  return within(grid.alpha, folded.alpha_x) &&
-         within(grid.lambda, second_roughness(grid, folded)) &&
-         within(grid.theta, folded.theta_radians) && within(grid.phi, folded.phi_radians);
-}
-
 LookUp look_up(const Table& table, const GgxLobe& lobe) {
-  const FoldedLobe folded = fold(table.grid, lobe);
+  const FoldedLobe folded = Reduction(table.grid).fold(lobe);
   const Interpolation corners = interpolation(table.grid, folded.lobe);
   Eigen::Matrix3d stored = Eigen::Matrix3d::Zero();
   LookUp result{Eigen::Matrix3d::Zero(), 0, 0};

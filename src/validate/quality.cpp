@@ -16,6 +16,7 @@
 #include "fit/fit_table.h"
 #include "fit/solver.h"
 #include "ltc/ltsd.h"
+#include "table/query_range.h"
 #include "validate/quality_summary.h"
 
 namespace ltc {
@@ -127,9 +128,9 @@ AreaLightJudge area_light_judge(const QualitySettings& settings) {
 
 Answer ask(const Table& table, const GgxLobe& lobe) {
   const LookUp found = look_up(table, lobe);
-  const QueryState state = !covers(table.grid, fold(table.grid, lobe).lobe) ? QueryState::outside
-                           : !found.matrix.allFinite()                      ? QueryState::missing
-                                                                            : QueryState::judged;
+  const QueryState state = !Reduction(table.grid).covers(lobe) ? QueryState::outside
+                           : !found.matrix.allFinite()         ? QueryState::missing
+                                                               : QueryState::judged;
   return {state, found};
 }
 
@@ -190,8 +191,11 @@ QualityReport measure_quality(const Table& table, const QualitySettings& setting
 
 QualityReport measure_quality(const Table& table, const QualitySettings& settings, int threads,
                               Progress* progress) {
-  return measure_quality(table, settings,
-                         fit_queries(settings, table.grid.alpha_min, threads, progress), threads,
+  check(settings);
+  QualitySettings served = settings;
+  served.range = query_range_of(table.grid, settings.range);
+  return measure_quality(table, served,
+                         fit_queries(served, table.grid.alpha_min, threads, progress), threads,
                          progress);
 }
 

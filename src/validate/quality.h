@@ -128,7 +128,8 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alph
 QualityReport measure_quality(const Table& table, const QualitySettings& settings,
                               std::vector<QueryFloor> floors, int threads, Progress* progress);
 
-// With floors of its own.
+// With floors of its own, of queries in the part of the settings' range that the table serves
+// (query_range_of); the report's settings say which.
 QualityReport measure_quality(const Table& table, const QualitySettings& settings, int threads,
                               Progress* progress);
 

@@ -46,13 +46,17 @@ void count_states(QualityReport& report) {
   report.queries_singular = count(singular);
 }
 
+// NaN where nothing is judged; never -NaN, which is what 0/0 gives.
 void set_noise(QualityReport& report) {
+  report.area_light_noise = report.area_light_mean_noise = nan;
   double squares = 0, count = 0;
   for (std::size_t i = 0; i < report.queries.size(); ++i)
     if (judged(report.queries[i])) {
       squares += std::pow(report.floors[i].area_light.standard_error, 2);
       ++count;
     }
+  if (count == 0)
+    return;
   report.area_light_noise = std::sqrt(squares / count);
   report.area_light_mean_noise =
       report.area_light_noise / std::sqrt(count * static_cast<double>(report.settings.quads));
@@ -170,9 +174,11 @@ void summarize_quality(QualityReport& report) {
 }
 
 std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
-                                             const QualityThresholds& thresholds) {
-  const auto check = [](const char* key, const char* what, double value, double limit) {
-    ThresholdCheck result{key, what, value, limit, std::isnan(value) || value <= limit, ""};
+                                             const QualityThresholds& thresholds,
+                                             const std::set<std::string>& demanded) {
+  const auto check = [&](const char* key, const char* what, double value, double limit) {
+    const bool passed = std::isnan(value) ? !demanded.contains(key) : value <= limit;
+    ThresholdCheck result{key, what, value, limit, passed, ""};
     if (limit >= QualityThresholds::none)
       result.reason = "no limit is set";
     return result;
@@ -185,7 +191,16 @@ std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
                 thresholds.area_light_error)};
 }
 
+std::string verdict_text(const ThresholdCheck& check) {
+  const char* const judged = check.passed ? "passed" : "FAILED";
+  return check.judged() ? judged : "not judged";
+}
+
 std::string failure_line(const ThresholdCheck& check) {
+  if (!check.judged())
+    return fmt::format(
+        "{} is not judged, for there is nothing to judge, but {} = {:.4g} is demanded", check.what,
+        check.key, check.limit);
   return fmt::format("{} is {:.4g}, above {} = {:.4g}", check.what, check.value, check.key,
                      check.limit);
 }

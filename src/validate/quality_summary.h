@@ -3,6 +3,8 @@
 // From what was judged one by one to the figures of a quality report, and the limits set to them.
 #pragma once
 
+#include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,11 +31,21 @@ struct ThresholdCheck {
   std::string what;  // in words
   double value = 0;  // NaN where nothing could be judged
   double limit = 0;
-  bool passed = true;  // so does what could not be judged
+  bool passed = true;  // what could not be judged fails only where it is demanded
   std::string reason;  // why no limit is set, in words, for whoever knows; empty where one is
+
+  bool judged() const { return !std::isnan(value); }
+  // Whether `passed` says anything: of a failure, and of what was judged by a limit.
+  bool has_verdict() const { return !passed || (judged() && reason.empty()); }
 };
+// `demanded` are the keys of limits that somebody asked for; those that nobody did may be without
+// anything to judge.
 std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
-                                             const QualityThresholds& thresholds);
+                                             const QualityThresholds& thresholds,
+                                             const std::set<std::string>& demanded = {});
+
+// "passed", "FAILED", "not judged".
+std::string verdict_text(const ThresholdCheck& check);
 
 // "mean relative loss between nodes is 0.31, above quality.query_loss = 0.13".
 std::string failure_line(const ThresholdCheck& check);

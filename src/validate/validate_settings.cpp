@@ -135,6 +135,8 @@ ValidateSettings load_validate_settings(const std::optional<std::filesystem::pat
     config::read_file(*file, vocabulary, sources);
   for (const std::string& override : overrides)
     config::read_override(override, vocabulary, sources);
+  for (const config::KeySource& source : sources)
+    settings.said.insert(source.key);
   return settings;
 }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct ValidateSettings {
   InvariantLimits invariants;
   QualitySettings quality;
   QualityThresholds thresholds;  // in section quality too
+  std::set<std::string> said;    // the keys that a file or an override has set
 };
 
 // What is demanded of a table that was refined, config/validate-refined.toml: less error between

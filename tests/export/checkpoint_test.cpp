@@ -46,7 +46,9 @@ FinishedFits example() {
         element = value += 1.0 / 7;
       entry.loss = value * 1e-9;
       entry.steps = 70'000 * static_cast<int>(flat) + round;  // more than 16 bits hold
-      entry.status = statuses[flat % statuses.size()];
+      entry.status = statuses[(flat + static_cast<std::size_t>(round)) % statuses.size()];
+      if (entry.status == Status::skipped)
+        entry.steps = 0;
       if (entry.status == Status::failed) {
         entry.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
         entry.loss = std::numeric_limits<double>::quiet_NaN();
@@ -75,6 +77,22 @@ TEST(Checkpoint, IsHdf5ThatOthersRead) {
   for (const char* part : {"\"format\"", "\"generator\"", "\"config\"", "\"needed\"",
                            "GROUP \"fit\"", "( 2, 16, 3, 3 )"})
     EXPECT_NE(dump.output.find(part), std::string::npos) << part;
+}
+
+// A stop does not wait for what is not there.
+TEST(Checkpoint, HoldsWhatIsFinishedAlone) {
+  const TemporaryDirectory folder;
+  FinishedFits fits = example();
+  for (std::vector<FittedEntry>& round : fits.rounds)
+    for (std::size_t flat = 0; flat < round.size(); ++flat)
+      if (flat != 6)
+        round[flat].status = Status::skipped;
+  write_checkpoint(config_with(), all_needed, fits, folder / "c.h5");
+  const FinishedFits read = read_checkpoint(config_with(), all_needed, folder / "c.h5");
+  EXPECT_TRUE(test::same_bits(read.rounds[0], fits.rounds[0]));
+  EXPECT_TRUE(test::same_bits(read.rounds[1], fits.rounds[1]));
+  const testing::Finished dump = testing::run("h5dump -H " + (folder / "c.h5").string());
+  EXPECT_NE(dump.output.find("( 2, 1, 3, 3 )"), std::string::npos) << dump.output;
 }
 
 // ---- What it refuses ----
@@ -169,6 +187,10 @@ TEST(CheckpointRefused, OfAnotherProgramOrDamaged) {
        {"fit/status holds 77"}},
       {[](hid_t f) { set_first_value<std::int32_t>(f, "fit/steps", H5T_NATIVE_INT32, 32, -1); },
        {"fit/steps holds -1"}},
+      {[](hid_t f) { set_first_value<std::int32_t>(f, "fit/entry", H5T_NATIVE_INT32, 16, 1); },
+       {"fit/entry holds 1 after 1", "rising, up to 15"}},
+      {[](hid_t f) { set_first_value<std::int32_t>(f, "fit/entry", H5T_NATIVE_INT32, 16, -2); },
+       {"fit/entry holds -2"}},
       {[=](hid_t f) { set_first_value(f, "fit/matrix", H5T_NATIVE_DOUBLE, 32 * 9, infinity); },
        {"fit/matrix", "not finite"}},
   };
@@ -187,7 +209,7 @@ TEST(CheckpointRefused, WithAnotherNumberOfRounds) {
   FinishedFits one = example();
   one.rounds.pop_back();
   write_checkpoint(config_with(), all_needed, one, folder / "c.h5");
-  expect_refused(folder, config_with(), all_needed, {"fit/matrix", "(1, 16, 3, 3)"});
+  expect_refused(folder, config_with(), all_needed, {"fit/matrix", "(1, 12, 3, 3)"});
 }
 
 }  // namespace

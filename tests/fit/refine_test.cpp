@@ -377,11 +377,11 @@ TEST(Refine, NodeLossesAreThoseOfTheNodes) {
   const std::vector<Eigen::Matrix3d> stored = matrices(grid);
   std::vector<bool> present = all_of(grid);
   present[5] = false;
-  const std::vector<double> losses = node_losses(grid, Storage::matrix, present, stored, 2);
+  const std::vector<double> losses = node_losses(grid, Storage::matrix, present, stored, 2, nullptr);
   EXPECT_TRUE(std::isnan(losses[5]));
   std::vector<Eigen::Matrix3d> worse = stored;
   worse[7].col(2) = Eigen::Vector3d(0.6, 0, 0.8);
-  const std::vector<double> other = node_losses(grid, Storage::matrix, present, worse, 1);
+  const std::vector<double> other = node_losses(grid, Storage::matrix, present, worse, 1, nullptr);
   EXPECT_EQ(other[6], losses[6]);
   EXPECT_GT(other[7], 1.1 * losses[7]);
 }

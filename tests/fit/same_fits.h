@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Fitted entries compared bit for bit.
+// Fitted entries compared bit for bit; those that are skipped have nothing to compare.
 #pragma once
 
 #include <cstring>
@@ -11,6 +11,8 @@
 namespace ltc::test {
 
 inline bool same_bits(const FittedEntry& a, const FittedEntry& b) {
+  if (a.status == Status::skipped && b.status == Status::skipped)
+    return true;
   return std::memcmp(a.matrix.data(), b.matrix.data(), sizeof(double) * 9) == 0 &&
          std::memcmp(&a.loss, &b.loss, sizeof(double)) == 0 && a.steps == b.steps &&
          a.status == b.status;

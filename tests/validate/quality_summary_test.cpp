@@ -89,7 +89,25 @@ TEST(QualityThresholds, NothingJudgedIsNothingPassed) {
   for (const ThresholdCheck& check : check_thresholds(report, {0, 0, 0})) {
     EXPECT_TRUE(check.passed) << check.key;
     EXPECT_TRUE(std::isnan(check.value)) << check.key;
+    EXPECT_EQ(verdict_text(check), "not judged");
   }
+  EXPECT_FALSE(std::signbit(report.area_light_noise)) << "printed as -nan";
+}
+
+TEST(QualityThresholds, WhatIsDemandedMustBeJudged) {
+  QualityReport report;
+  summarize_quality(report);
+  const std::vector<ThresholdCheck> checks =
+      check_thresholds(report, {1, 1, 1}, {"quality.query_loss"});
+  EXPECT_TRUE(checks[0].passed);
+  EXPECT_FALSE(checks[1].passed);
+  EXPECT_EQ(verdict_text(checks[1]), "not judged");
+  EXPECT_EQ(failure_line(checks[1]),
+            "mean relative loss between nodes is not judged, for there is nothing to judge, but "
+            "quality.query_loss = 1 is demanded");
+  report = four_queries();
+  summarize_quality(report);
+  EXPECT_TRUE(check_thresholds(report, {1, 1, 1}, {"quality.query_loss"})[1].passed);
 }
 
 }  // namespace

@@ -90,6 +90,8 @@ TEST(ValidateSettings, FilesAndThenOverridesSetKeys) {
   const ValidateSettings settings = load_validate_settings(file, overrides);
   EXPECT_EQ(settings.invariants.condition_number, 1e5);
   EXPECT_EQ(settings.invariants.samples, 4096);
+  EXPECT_EQ(settings.said, (std::set<std::string>{"invariants.condition_number",
+                                                  "invariants.samples", "invariants.directions"}));
   EXPECT_EQ(settings.invariants.directions, 8);
   EXPECT_EQ(settings.invariants.loss_excess, InvariantLimits{}.loss_excess);
 }
