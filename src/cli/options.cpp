@@ -8,7 +8,7 @@
 #include <charconv>
 
 #include "cli/output.h"
-#include "export/hdf5.h"
+#include "export/config_file.h"
 
 namespace ltc::cli {
 namespace {
@@ -32,10 +32,7 @@ std::optional<std::filesystem::path> ConfigArguments::path() const {
 }
 
 Config ConfigArguments::load() const {
-  const std::optional<std::filesystem::path> config = path();
-  if (config && config->extension() == ".h5")
-    return parse_config(read_hdf5(*config).config, *config, overrides);
-  return load_config(config, overrides);
+  return load_config_or_table(path(), overrides);
 }
 
 std::string ConfigArguments::as_text() const {
