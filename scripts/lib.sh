@@ -6,12 +6,13 @@
 # To build and run (Debian 12).
 build_packages=(
   g++ cmake ninja-build git pkg-config
-  libeigen3-dev libhdf5-dev libopenexr-dev libgtest-dev libhwy-dev libcli11-dev libtomlplusplus-dev
-  libfmt-dev libpng-dev nlohmann-json3-dev libbenchmark-dev
+  libeigen3-dev libhdf5-dev libopenexr-dev libhwy-dev libcli11-dev libtomlplusplus-dev
+  libfmt-dev libpng-dev nlohmann-json3-dev
   libcairo2-dev fonts-dejavu-core libnlopt-cxx-dev libnlopt-dev
+  python3-dev python3-numpy pybind11-dev
 )
-# Readers and compilers by others, which the tests check our files and snippets with.
-test_packages=(hdf5-tools openexr python3-h5py python3-numpy glslang-tools)
+# To build the tests; readers and compilers by others, which they check our files and snippets with.
+test_packages=(libgtest-dev libbenchmark-dev hdf5-tools openexr python3-h5py glslang-tools)
 
 say() { echo "== $*" >&2; }
 

@@ -11,7 +11,7 @@
 
 #include "cli/output.h"
 #include "core/error.h"
-#include "export/hdf5.h"
+#include "export/config_file.h"
 
 namespace ltc::cli {
 namespace {
@@ -138,7 +138,7 @@ Config ConfigArguments::load() const {
   if (!config)
     return load_config(config, overrides);
   if (!toml)
-    toml = config->extension() == ".h5" ? read_hdf5(*config).config : read_config(*config);
+    toml = config_text(*config);
   return parse_config(*toml, *config, overrides);
 }
 
