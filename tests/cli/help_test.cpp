@@ -52,7 +52,7 @@ TEST(Help, NamesEveryCommandAndFitsTheTerminal) {
 
 // A terminal of its own, so many columns wide.
 TEST(Help, FitsANarrowTerminal) {
-  for (const int columns : {50, 100}) {
+  for (const int columns : {60, 100}) {
     const std::string set = "stty cols " + std::to_string(columns) + "; ";
     const ProgramResult result =
         run_program({"script", "-qec", set + LTCFIT_PROGRAM " generate --help", "/dev/null"});

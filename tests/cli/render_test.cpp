@@ -47,6 +47,7 @@ TEST_F(Render, WritesAPictureAndTheImagesOfFourMaterials) {
 }
 
 TEST_F(Render, ComparesTwoTablesInOneMaterial) {
+  std::filesystem::create_directory(folder_ / "made");
   const ProgramResult result = run({"t.h5", "--table-b", "t.npy", "--alpha-x", "0.2", "--alpha-y",
                                     "0.4", "--f0", "0.04", "-o", "made/two.png"});
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -301,7 +301,7 @@ TEST_F(Validate, RefusesBadInputInOneLine) {
                  {"--set", "invariants.zeros", "did you mean invariants.zero?"});
   expect_refused({"validate", table, "--config", "none.toml"}, 3, {"none.toml"});
   expect_refused({"validate", table, "--json", folder.path().string()}, 3, {"is a folder"});
-  expect_refused({"validate", table, "--json", "/proc/none/r.json"}, 3, {"no folder /proc/none"});
+  expect_refused({"validate", table, "--json", "none/r.json"}, 3, {"no folder none"});
   expect_refused({"validate", table, "--threads", "0"}, 2, {"--threads"});
 }
 
