@@ -12,6 +12,7 @@
 #include "brdf/albedo.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/platform.h"
 #include "core/version.h"
 #include "fit/fit_table.h"
 #include "pipeline/post_process.h"
