@@ -9,25 +9,15 @@
 #include <numbers>
 
 #include "core/angle.h"
+#include "table/reduction.h"
 
 namespace ltc {
-namespace {
-
-double clamped_to(const Axis& axis, double value) {
-  constexpr double no_matter = 1e-3;
-  if (value >= axis.first() - no_matter && value <= axis.last() + no_matter)
-    return value;
-  return std::clamp(value, axis.first(), axis.last());
-}
-
-}  // namespace
-
 std::vector<ClampedAxis> clamped_axes(const Grid& grid, const SphereMaterial& material) {
   constexpr double right_angle = std::numbers::pi / 2;
   const auto [smaller, larger] = std::minmax(material.alpha_x, material.alpha_y);
   std::vector<ClampedAxis> result;
   const auto check = [&](const char* name, const Axis& axis, std::initializer_list<double> values,
-                         double unit) {
+                         auto&& clamped_to, double unit) {
     ClampedAxis worst{name, 0, 0};
     for (const double value : values) {
       const double taken = clamped_to(axis, value);
@@ -37,11 +27,16 @@ std::vector<ClampedAxis> clamped_axes(const Grid& grid, const SphereMaterial& ma
     if (worst.asked != worst.taken)
       result.push_back(worst);
   };
-  check("alpha", grid.alpha, {larger}, 1);
-  check("lambda", grid.lambda, {smaller / larger}, 1);
-  check("theta", grid.theta, {0, right_angle}, radians_per_degree);
+  if (grid.layout == Layout::alphax_alphay) {
+    check("alpha_x", grid.alpha, {material.alpha_x}, clamped_to_roughness_axis, 1);
+    check("alpha_y", grid.lambda, {material.alpha_y}, clamped_to_roughness_axis, 1);
+  } else {
+    check("alpha", grid.alpha, {larger}, clamped_to_roughness_axis, 1);
+    check("lambda", grid.lambda, {smaller / larger}, clamped_to_roughness_axis, 1);
+  }
+  check("theta", grid.theta, {0, right_angle}, clamped_to_angle_axis, radians_per_degree);
   if (smaller != larger)
-    check("phi", grid.phi, {0, right_angle}, radians_per_degree);
+    check("phi", grid.phi, {0, right_angle}, clamped_to_angle_axis, radians_per_degree);
   return result;
 }
 

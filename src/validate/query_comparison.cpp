@@ -6,19 +6,10 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "table/query_range.h"
 
 namespace ltc {
 namespace {
-
-// Of the lobes that validate asks for, those on the axes.
-QueryRange range_of(const Grid& grid) {
-  QueryRange range;
-  range.roughness_first = std::max(range.roughness_first, std::sqrt(grid.alpha.first()));
-  range.roughness_last = std::min(range.roughness_last, std::sqrt(grid.alpha.last()));
-  range.lambda_first = std::max(range.lambda_first, grid.lambda.first());
-  range.lambda_last = std::min(range.lambda_last, grid.lambda.last());
-  return range;
-}
 
 bool is_range(const QueryRange& range) {
   return range.roughness_first <= range.roughness_last && range.lambda_first <= range.lambda_last &&
@@ -55,7 +46,7 @@ QueryComparison compare_query(const Table& a, const Table& b, const GgxLobe& lob
 }  // namespace
 
 std::optional<QueryRange> common_range(const Grid& a, const Grid& b) {
-  const QueryRange of_a = range_of(a), of_b = range_of(b);
+  const QueryRange of_a = query_range_of(a, {}), of_b = query_range_of(b, {});
   const QueryRange common{std::max(of_a.roughness_first, of_b.roughness_first),
                           std::min(of_a.roughness_last, of_b.roughness_last),
                           std::max(of_a.lambda_first, of_b.lambda_first),
