@@ -306,12 +306,13 @@ TEST(LookUp, InterpolatesBothRoughnessesWhereTheTableHasThem) {
   Grid grid = Grid::paper(5);
   grid.layout = Layout::alphax_alphay;
   const Table table = testing::synthetic_table(grid, Storage::matrix);
+  const Reduction reduction(grid);
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
     const NodeIndex node = grid.node(flat);
     const GgxLobe lobe = {grid.alpha.nodes[node.alpha], grid.lambda.nodes[node.lambda],
                           grid.theta.nodes[node.theta], grid.phi.nodes[node.phi]};
-    const FoldedLobe folded = fold(grid, lobe);
-    EXPECT_TRUE(covers(grid, folded.lobe));
+    const FoldedLobe folded = reduction.fold(lobe);
+    EXPECT_TRUE(reduction.covers(lobe));
     EXPECT_EQ(look_up(table, lobe).matrix, folded.unfold * table.matrix_at(flat)) << flat;
   }
   const GgxLobe a = {0.25, 0.75, 0, 0}, b = {0.5, 1, 0, 0}, between = {0.375, 0.875, 0, 0};
