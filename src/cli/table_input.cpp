@@ -6,28 +6,25 @@
 
 #include <cstdio>
 
+#include "cli/options.h"
 #include "cli/output.h"
 #include "export/reader.h"
 
 namespace ltc::cli {
 
 void add_layout_option(CLI::App& app, std::optional<Layout>& layout) {
-  app.add_option_function<std::string>(
-         "--layout",
-         [&layout](const std::string& name) {
-           layout = name == layout_name(Layout::alphax_alphay) ? Layout::alphax_alphay
-                                                               : Layout::alpha_lambda;
-         },
-         "what the first two axes of an .npy hold: alpha-lambda or alphax-alphay [told apart by "
-         "the symmetry of alpha_x and alpha_y]")
-      ->check([](const std::string& name) {
-        for (const Layout known : {Layout::alpha_lambda, Layout::alphax_alphay})
-          if (name == layout_name(known))
-            return std::string();
-        return fmt::format("{} is not allowed; expected alpha-lambda or alphax-alphay",
-                           shell_quoted(name));
-      })
-      ->option_text("LAYOUT");
+  const auto set = [&layout](const std::string& name) {
+    layout =
+        name == layout_name(Layout::alphax_alphay) ? Layout::alphax_alphay : Layout::alpha_lambda;
+  };
+  CLI::Option* const option = app.add_option_function<std::string>(
+      "--layout", set,
+      "what the first two axes of an .npy hold: alpha-lambda or alphax-alphay [told apart by the "
+      "symmetry of alpha_x and alpha_y]");
+  allow_names(option, {std::string(layout_name(Layout::alpha_lambda)),
+                       std::string(layout_name(Layout::alphax_alphay))})
+      ->option_text("LAYOUT")
+      ->group("How to read tables");
 }
 
 Table read_input(const std::string& file, std::optional<Layout> layout) {

@@ -67,7 +67,7 @@ TEST(LayoutOfArrays, ALookUpTakesBothRoughnesses) {
   const Arrays arrays;
   const ProgramResult result =
       run_ltcfit({"fit", "--as-in", "both.npy", "--alpha-x", "0.2", "--alpha-y", "0.6", "--theta",
-                  "30", "--phi", "20", "--json"},
+                  "30", "--phi", "20", "--json", "-"},
                  arrays.folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json report = Json::parse(result.out);
@@ -94,7 +94,7 @@ TEST(LayoutOfArrays, TheOtherPublishedTableFitsTheLobesOfItsAxes) {
     GTEST_SKIP() << "no " << file << "; set LTCFIT_REFERENCE_DIR to the folder that has it";
   const auto loss = [&](const char* layout) {
     const ProgramResult result = run_ltcfit(
-        {"fit", "--as-in", file.string(), "--entry", "3,5,2,3", "--json", "--layout", layout});
+        {"fit", "--as-in", file.string(), "--entry", "3,5,2,3", "--json", "-", "--layout", layout});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return Json::parse(result.out)["loss"]["relative"].get<double>();
   };

@@ -47,7 +47,7 @@ stored = ltcfit.generate(set=SMALL).stored
 assert np.array_equal(stored, table.stored)  # its table is gone but for this view
 
 # A look-up at a node is the node; arguments broadcast.
-node = (1, 1, 2, 1)
+node = (1, 1, 2, 0)
 alpha, ratio, theta, phi = (table.axes[name][i] for name, i in zip(table.axes, node))
 M, amplitude, fresnel = table.look_up(alpha, ratio * alpha, theta, phi)
 assert M.shape == (3, 3) and amplitude.shape == ()

@@ -63,7 +63,7 @@ TEST(Subproject, BuildsNoTestsAndKeepsItsNamesToItself) {
   folder.write("CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.25)
 project(outside LANGUAGES CXX C)
 add_subdirectory()" LTCFIT_SOURCE_DIR R"( ltcfit)
-get_property(targets DIRECTORY ltcfit PROPERTY BUILDSYSTEM_TARGETS)
+get_property(targets DIRECTORY )" LTCFIT_SOURCE_DIR R"( PROPERTY BUILDSYSTEM_TARGETS)
 message(STATUS "targets: ${targets}; build type: '${CMAKE_BUILD_TYPE}'")
 if(NOT TARGET ltcfit::ltcfit)
   message(FATAL_ERROR "no target ltcfit::ltcfit")
