@@ -29,6 +29,8 @@ struct Table;
 
 namespace ltcfit {
 
+struct Validation;
+
 // What the functions below throw, each with a message of one line: a value, config or file that
 // cannot be used; a file that the system refuses; a check that failed; a stop that was asked for.
 using ltc::CheckFailure;
@@ -110,7 +112,7 @@ class Table {
   struct Data;
   std::shared_ptr<const Data> data_;
   friend Table generate(const Config&, const Run&);
-  friend struct Validator;
+  friend Validation validate(const Table&, const Config&, bool, const Run&);
 };
 
 // The table of a config, its [output] section aside.

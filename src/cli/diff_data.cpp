@@ -8,6 +8,7 @@
 
 #include "cli/diff_report.h"
 #include "cli/fit_command.h"
+#include "cli/lobe_words.h"
 #include "core/angle.h"
 #include "table/entry_text.h"
 #include "validate/quality_summary.h"
@@ -153,19 +154,11 @@ Json json_of(const Verdict& verdict) {
        {{"mean", verdict.difference.mean}, {"standard_error", verdict.difference.standard_error}}}};
 }
 
-Json json_of(const QueryRange& range) {
-  return {
-      {"roughness", {range.roughness_first, range.roughness_last}},
-      {"lambda", {range.lambda_first, range.lambda_last}},
-      {"cos_theta", {range.cos_theta_first, range.cos_theta_last}},
-      {"phi_degrees", {range.phi_first / radians_per_degree, range.phi_last / radians_per_degree}}};
-}
-
 Json json_of_use(const DiffReport& report) {
   const QuerySummary& use = report.use;
   const QualitySettings& settings = report.settings.use;
   return {{"queries", report.queries.size()},
-          {"range", report.queries.empty() ? Json(nullptr) : json_of(settings.range)},
+          {"range", report.queries.empty() ? Json(nullptr) : range_json(settings.range)},
           {"samples", settings.query_samples},
           {"directions", settings.query_directions},
           {"area_lights", settings.quads},

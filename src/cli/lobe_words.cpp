@@ -64,6 +64,13 @@ nlohmann::ordered_json matrix_json(const Eigen::Matrix3d& matrix) {
   return rows;
 }
 
+nlohmann::ordered_json range_json(const QueryRange& range) {
+  return {{"roughness", {range.roughness_first, range.roughness_last}},
+          {"lambda", {range.lambda_first, range.lambda_last}},
+          {"cos_theta", {range.cos_theta_first, range.cos_theta_last}},
+          {"phi_degrees", {degrees(range.phi_first), degrees(range.phi_last)}}};
+}
+
 std::string range_words(const QueryRange& range) {
   return fmt::format(
       "perceptual roughness {:.3g} to {:.3g}, lambda {:.3g} to {:.3g}, theta {:.3g} to {:.3g}, phi "

@@ -29,6 +29,8 @@ std::string loss_words(double held_out_loss, double spread);
 nlohmann::ordered_json lobe_json(const GgxLobe& lobe);
 nlohmann::ordered_json matrix_json(const Eigen::Matrix3d& matrix);  // rows; null for NaN
 
+nlohmann::ordered_json range_json(const QueryRange& range);  // from and to, angles in degrees
+
 // "perceptual roughness 0.1 to 1, lambda 0 to 1, theta 0 to 90, phi 0 to 90", angles in degrees.
 std::string range_words(const QueryRange& range);
 

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "cli/lobe_words.h"
-#include "core/angle.h"
 
 namespace ltc::cli {
 namespace {
@@ -105,14 +104,6 @@ Json json_of(const Statistics& d) {
           {"largest_index", d.largest_index}};
 }
 
-Json json_of(const QueryRange& range) {
-  return {
-      {"roughness", {range.roughness_first, range.roughness_last}},
-      {"lambda", {range.lambda_first, range.lambda_last}},
-      {"cos_theta", {range.cos_theta_first, range.cos_theta_last}},
-      {"phi_degrees", {range.phi_first / radians_per_degree, range.phi_last / radians_per_degree}}};
-}
-
 Json json_of(const Bands& bands) {
   Json json;
   json["parameter"] = bands.parameter;
@@ -130,20 +121,17 @@ Json json_of(const Bands& bands) {
 
 Json query_json(const std::string& file, const QueryFloor& floor, const QueryQuality& query) {
   constexpr const char* states[] = {"judged", "outside", "missing"};
-  const GgxLobe& lobe = floor.lobe;
-  return {{"alpha_x", lobe.alpha_x},
-          {"alpha_y", lobe.alpha_y},
-          {"theta_degrees", lobe.theta_radians / radians_per_degree},
-          {"phi_degrees", lobe.phi_radians / radians_per_degree},
-          {"state", states[static_cast<std::size_t>(query.state)]},
-          {"loss", query.relative_loss},
-          {"floor_loss", floor.relative_loss},
-          {"area_light_error", query.area_light.mean_absolute},
-          {"area_light_error_with_amplitude", query.area_light_with_amplitude.mean_absolute},
-          {"floor_area_light_error", floor.area_light.mean_absolute},
-          {"below_horizon", query.below_horizon},
-          {"area_light_noise", floor.area_light.standard_error},
-          {"command", query_command(file, lobe)}};
+  Json json = lobe_json(floor.lobe);
+  json["state"] = states[static_cast<std::size_t>(query.state)];
+  json["loss"] = query.relative_loss;
+  json["floor_loss"] = floor.relative_loss;
+  json["area_light_error"] = query.area_light.mean_absolute;
+  json["area_light_error_with_amplitude"] = query.area_light_with_amplitude.mean_absolute;
+  json["floor_area_light_error"] = floor.area_light.mean_absolute;
+  json["below_horizon"] = query.below_horizon;
+  json["area_light_noise"] = floor.area_light.standard_error;
+  json["command"] = query_command(file, floor.lobe);
+  return json;
 }
 
 }  // namespace
@@ -165,7 +153,7 @@ Json quality_json(const std::string& file, const QualityReport& quality,
          {"at_most", check.limit},
          {"passed", check.has_verdict() ? Json(check.passed) : Json(nullptr)},
          {"reason", check.reason}});
-  json["query_range"] = json_of(quality.settings.range);
+  json["query_range"] = range_json(quality.settings.range);
   json["node_loss"] = json_of(quality.nodes);
   json["nodes_without_values"] = quality.nodes_without_values;
   json["query_loss"] = json_of(quality.query_losses);

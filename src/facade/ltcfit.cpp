@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "config/config.h"
+#include "core/platform.h"
 #include "core/version.h"
 #include "export/config_file.h"
 #include "export/exr.h"
@@ -57,10 +58,6 @@ ltc::GgxLobe checked(const Lobe& lobe) {
 struct Table::Data {
   ltc::Table table;
   ltc::TableContents contents;
-};
-
-struct Validator {
-  static const Table::Data& data(const Table& table) { return *table.data_; }
 };
 
 std::string_view version() {
@@ -153,6 +150,7 @@ Table generate(const Config& config, const Run& run) {
   do_watched(run, [&](ltc::Progress* progress) {
     table = ltc::generate_table(settings, threads, progress, nullptr);
   });
+  table.created = ltc::platform::utc_now_iso8601();
   return Table(std::move(table), true, true);
 }
 
@@ -161,8 +159,7 @@ bool Validation::passed() const {
 }
 
 Validation validate(const Table& table, const Config& limits, bool quality, const Run& run) {
-  const ltc::Table& judged = Validator::data(table).table;
-  const ltc::TableContents& contents = Validator::data(table).contents;
+  const auto& [judged, contents] = *table.data_;
   const ltc::ValidateSettings settings =
       ltc::load_validate_settings(file_of(limits), limits.overrides, ltc::settings_for(judged));
   const int threads = thread_count(run);
@@ -175,7 +172,8 @@ Validation validate(const Table& table, const Config& limits, bool quality, cons
     if (!quality)
       return;
     const ltc::QualityReport report = measure_quality(judged, settings.quality, threads, progress);
-    for (const ltc::ThresholdCheck& check : check_thresholds(report, settings.thresholds, settings.said))
+    for (const ltc::ThresholdCheck& check :
+         check_thresholds(report, settings.thresholds, settings.said))
       result.checks.push_back({check.what, check.has_verdict(), check.passed, check.value,
                                check.limit, check.passed ? "" : failure_line(check)});
     result.quality = {report.nodes.mean, report.query_losses.mean, report.floor_losses.mean,

@@ -203,7 +203,7 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
   table.refined = false;
   if (config.refine.steps > 0 && result.fits > 0) {
     const std::vector<QueryRange> ranges = ranges_served(config, context.asked);
-    if (context.asked.empty() && !same_range(ranges.front(), config.refine.range))
+    if (context.asked.empty() && ranges.front() != config.refine.range)
       result.range_served = ranges.front();
     result.refine = refine_nodes(config, context, ranges, threads, progress, table);
     table.refined = result.refine->kept;

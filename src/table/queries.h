@@ -20,6 +20,8 @@ struct QueryRange {
   double lambda_first = 0, lambda_last = 1;
   double cos_theta_first = 0, cos_theta_last = 1;
   double phi_first = 0, phi_last = 1.5707963267948966;  // radians
+
+  bool operator==(const QueryRange&) const = default;
 };
 
 // The lobe at four uniform numbers in [0, 1), for roughness, lambda, cos(theta) and phi in this

@@ -64,11 +64,4 @@ QueryRange query_range_of(const Grid& grid, const QueryRange& wanted) {
   return result;
 }
 
-bool same_range(const QueryRange& a, const QueryRange& b) {
-  return a.roughness_first == b.roughness_first && a.roughness_last == b.roughness_last &&
-         a.lambda_first == b.lambda_first && a.lambda_last == b.lambda_last &&
-         a.cos_theta_first == b.cos_theta_first && a.cos_theta_last == b.cos_theta_last &&
-         a.phi_first == b.phi_first && a.phi_last == b.phi_last;
-}
-
 }  // namespace ltc

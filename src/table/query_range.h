@@ -16,7 +16,4 @@ QueryRange clamped_range(const Grid& grid, const QueryRange& range);
 // same, but the axes' own extent in each parameter of which nothing wanted is left.
 QueryRange query_range_of(const Grid& grid, const QueryRange& wanted);
 
-// Whether two ranges have the same ends.
-bool same_range(const QueryRange& a, const QueryRange& b);
-
 }  // namespace ltc

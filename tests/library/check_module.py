@@ -2,6 +2,7 @@
 """The Python module: values, shapes, views, exceptions, stops."""
 import math
 import pathlib
+import re
 import tempfile
 import threading
 
@@ -35,6 +36,7 @@ with tempfile.TemporaryDirectory() as folder:
         assert np.array_equal(h5["fresnel"], table.fresnel)
         assert np.array_equal(h5["sw_loss"], table.loss)
         assert np.array_equal(h5["axis/theta"], table.axes["theta"])
+        assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", h5.attrs["created"])
     again = ltcfit.Table.read(str(file))
     again.write(file.with_suffix(".npy"))
     assert np.array_equal(np.load(file.with_suffix(".npy")), table.matrix.astype(np.float32))

@@ -106,7 +106,7 @@ TEST(Reduction, CoversWhatATableServes) {
 }
 
 TEST(QueryRanges, AreTheWantedOneOnThePapersAxes) {
-  EXPECT_TRUE(same_range(query_range_of(Grid::paper(), {}), {}));
+  EXPECT_EQ(query_range_of(Grid::paper(), {}), QueryRange());
   EXPECT_EQ(query_range_of(isotropic_grid(), {}).phi_last, QueryRange{}.phi_last);
   EXPECT_EQ(query_range_of(isotropic_grid(), {}).lambda_first, 1);
 }
@@ -118,12 +118,12 @@ TEST(QueryRanges, EndWhereTheAxesEnd) {
   grid.theta = Axis::make(0.2, 1.2, 4, Warp::linear);
   grid.phi = Axis::make(0.1, 0.4, 4, Warp::linear);
   const QueryRange range = query_range_of(grid, {});
-  EXPECT_TRUE(same_range(range, {0.2, 0.8, 0.5, 0.9, std::cos(1.2), std::cos(0.2), 0.1, 0.4}));
+  EXPECT_EQ(range, (QueryRange{0.2, 0.8, 0.5, 0.9, std::cos(1.2), std::cos(0.2), 0.1, 0.4}));
   for (const GgxLobe& lobe : random_queries(range, 100, 1, grid.alpha_min))
     EXPECT_TRUE(Reduction(grid).covers(lobe));
   // What is asked for within the axes stays as it is.
   const QueryRange within{0.3, 0.3, 0.6, 0.7, 0.5, 0.5, 0.2, 0.2};
-  EXPECT_TRUE(same_range(query_range_of(grid, within), within));
+  EXPECT_EQ(query_range_of(grid, within), within);
 }
 
 TEST(QueryRanges, AreTheAxesOwnWhereNothingWantedIsLeft) {
