@@ -14,9 +14,9 @@
 
 #include "core/parallel.h"
 #include "export/reader.h"
+#include "judge/shader_inverse.h"
 #include "table/lookup.h"
 #include "table/queries.h"
-#include "validate/shader_inverse.h"
 
 namespace {
 

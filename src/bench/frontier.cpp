@@ -10,7 +10,7 @@
 
 #include "core/platform.h"
 #include "fit/fit_table.h"
-#include "validate/held_out.h"
+#include "judge/held_out.h"
 
 namespace ltc {
 namespace {

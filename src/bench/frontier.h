@@ -13,8 +13,8 @@
 
 #include "bench/setting.h"
 #include "core/progress.h"
+#include "judge/comparison_summary.h"
 #include "table/table.h"
-#include "validate/comparison_summary.h"
 
 namespace ltc {
 

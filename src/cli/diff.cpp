@@ -17,7 +17,7 @@
 #include "cli/table_input.h"
 #include "core/error.h"
 #include "core/write_file.h"
-#include "validate/ratio_map.h"
+#include "report/ratio_map.h"
 
 namespace ltc::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "validate/comparison_summary.h"
-#include "validate/query_comparison.h"
+#include "judge/comparison_summary.h"
+#include "judge/query_comparison.h"
 
 namespace ltc::cli {
 

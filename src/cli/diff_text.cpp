@@ -9,8 +9,8 @@
 #include "cli/diff_report.h"
 #include "cli/fit_command.h"
 #include "cli/lobe_words.h"
+#include "judge/quality_summary.h"
 #include "table/entry_text.h"
-#include "validate/quality_summary.h"
 
 namespace ltc::cli {
 namespace {

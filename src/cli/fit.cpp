@@ -24,9 +24,9 @@
 #include "core/write_file.h"
 #include "export/reader.h"
 #include "fit/symmetry_plan.h"
+#include "report/lobe_picture.h"
 #include "scene/coverage.h"
 #include "table/lookup.h"
-#include "validate/lobe_picture.h"
 
 namespace ltc::cli {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "cli/json_text.h"
 #include "cli/lobe_words.h"
+#include "judge/matrix_invariants.h"
 #include "table/entry_text.h"
-#include "validate/matrix_invariants.h"
 
 namespace ltc::cli {
 namespace {

@@ -25,11 +25,11 @@
 #include "export/hdf5.h"
 #include "export/npy.h"
 #include "export/reader.h"
+#include "judge/half_precision.h"
 #include "scene/coverage.h"
 #include "scene/query_ranges.h"
 #include "table/entry_text.h"
 #include "table/extend.h"
-#include "validate/half_precision.h"
 
 namespace ltc::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "core/angle.h"
-#include "validate/matrix_invariants.h"
+#include "judge/matrix_invariants.h"
 
 namespace ltc::cli {
 namespace {

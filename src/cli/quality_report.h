@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "validate/quality_summary.h"
+#include "judge/quality_summary.h"
 
 namespace ltc::cli {
 

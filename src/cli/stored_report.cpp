@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "cli/lobe_words.h"
+#include "judge/matrix_invariants.h"
 #include "table/entry_text.h"
 #include "table/lookup.h"
-#include "validate/matrix_invariants.h"
 
 namespace ltc::cli {
 namespace {

@@ -13,8 +13,8 @@
 #include "core/error.h"
 #include "core/write_file.h"
 #include "export/reader.h"
+#include "judge/validate_settings.h"
 #include "report/validation_page.h"
-#include "validate/validate_settings.h"
 
 namespace ltc::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fit/refine_settings.h"
 #include "fit/settings.h"
+#include "refine/refine_settings.h"
 #include "table/grid.h"
 #include "table/storage.h"
 

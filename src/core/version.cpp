@@ -8,8 +8,14 @@
 
 namespace ltc {
 
-std::string_view version() { return LTCFIT_VERSION; }
-std::string_view commit() { return LTCFIT_COMMIT; }
-std::string generator() { return fmt::format("ltcfit {} ({})", version(), commit()); }
+std::string_view version() {
+  return LTCFIT_VERSION;
+}
+std::string_view commit() {
+  return LTCFIT_COMMIT;
+}
+std::string generator() {
+  return fmt::format("ltcfit {} ({})", version(), commit());
+}
 
 }  // namespace ltc

@@ -8,7 +8,8 @@
 
 namespace ltc {
 
-// The TOML of a config file, or of the config in a table's .h5. Throws as read_config and read_hdf5.
+// The TOML of a config file, or of the config in a table's .h5. Throws as read_config and
+// read_hdf5.
 std::string config_text(const std::filesystem::path& file);
 
 }  // namespace ltc

@@ -17,10 +17,10 @@
 #include "export/npy.h"
 #include "export/reader.h"
 #include "facade/watched_run.h"
+#include "judge/validate_settings.h"
 #include "pipeline/fit_one.h"
 #include "pipeline/generate.h"
 #include "table/lookup.h"
-#include "validate/validate_settings.h"
 
 namespace ltcfit {
 namespace {

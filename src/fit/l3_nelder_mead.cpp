@@ -16,8 +16,8 @@ namespace {
 
 constexpr double first_simplex = 0.1;
 
-// The sets that a result's sliced-Wasserstein loss is measured with: half the samples of the default
-// fit, along as many directions.
+// The sets that a result's sliced-Wasserstein loss is measured with: half the samples of the
+// default fit, along as many directions.
 constexpr std::size_t loss_samples = 2048, loss_directions = 32, loss_target_samples = 4096;
 constexpr std::size_t loss_bins = 128;
 

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "fit/lobe_frame.h"
 #include "fit/starting_points.h"
-#include "validate/held_out.h"
+#include "judge/held_out.h"
 
 namespace ltc {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "config/config.h"
 #include "core/progress.h"
-#include "fit/refine.h"
+#include "refine/refine.h"
 #include "table/table.h"
 
 namespace ltc {

@@ -9,10 +9,10 @@
 
 #include "core/error.h"
 #include "fit/solver.h"
+#include "judge/held_out.h"
+#include "judge/quality.h"
 #include "table/entry_text.h"
 #include "table/lookup.h"
-#include "validate/held_out.h"
-#include "validate/quality.h"
 
 namespace ltc {
 namespace {

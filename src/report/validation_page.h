@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "judge/invariants.h"
+#include "judge/quality.h"
+#include "judge/quality_summary.h"
 #include "table/table.h"
-#include "validate/invariants.h"
-#include "validate/quality.h"
-#include "validate/quality_summary.h"
 
 namespace ltc {
 

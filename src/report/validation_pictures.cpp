@@ -15,10 +15,10 @@
 #include "core/shell_quoted.h"
 #include "render/missing_albedo.h"
 #include "render/sphere_picture.h"
+#include "report/lobe_picture.h"
+#include "report/table_map.h"
 #include "table/entry_text.h"
 #include "table/lookup.h"
-#include "validate/lobe_picture.h"
-#include "validate/table_map.h"
 
 namespace ltc {
 namespace {

@@ -12,9 +12,9 @@
 #include "core/progress.h"
 #include "fit/settings.h"
 #include "fit/solver.h"
+#include "judge/compare.h"
 #include "stress/lobes.h"
 #include "stress/starts.h"
-#include "validate/compare.h"
 
 namespace ltc {
 

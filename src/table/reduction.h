@@ -20,9 +20,9 @@ struct FoldedLobe {
 // is a diagonal of +-1, times the swap of x and y where alpha_y > alpha_x.
 FoldedLobe fold(const GgxLobe& lobe);
 
-// Where a folded lobe stands on the grid's second axis: its alpha_y where that is the axis, else the
-// ratio of its roughnesses. At zero roughness every ratio is the same lobe; 1 is the one that takes
-// no lower bound to be so.
+// Where a folded lobe stands on the grid's second axis: its alpha_y where that is the axis, else
+// the ratio of its roughnesses. At zero roughness every ratio is the same lobe; 1 is the one that
+// takes no lower bound to be so.
 double second_roughness(const Grid& grid, const GgxLobe& folded);
 
 // How a table of this grid is asked; every look-up, and all that judges one, goes by it.

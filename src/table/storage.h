@@ -21,7 +21,8 @@ enum class Storage {
 std::string_view storage_name(Storage storage);
 Storage storage_from_name(std::string_view name);
 
-// The least rotation from z to the mirror direction (-vx, -vy, vz) of a unit view direction, vz > -1.
+// The least rotation from z to the mirror direction (-vx, -vy, vz) of a unit view direction, vz >
+// -1.
 Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v);
 
 // M of a lobe from the stored S, and S from M. Neither normalises.

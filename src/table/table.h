@@ -36,7 +36,7 @@ struct Table {
   std::string config;     // the full effective TOML
   std::string generator;  // program, version, commit
   std::string created;    // UTC, ISO 8601
-  // Whether nodes were moved for the sake of what lies between them (fit/refine.h) and stayed so;
+  // Whether nodes were moved for the sake of what lies between them (refine/refine.h) and stayed so;
   // nothing where that is not known.
   std::optional<bool> refined;
   Precision precision = Precision::single;  // of the file that it was read from

@@ -12,8 +12,8 @@
 #include "bench/report.h"
 #include "core/error.h"
 #include "fit/fit_table.h"
+#include "judge/held_out.h"
 #include "support/refusal.h"
-#include "validate/held_out.h"
 
 namespace ltc {
 namespace {

@@ -19,6 +19,8 @@
 #include "export/same_tables.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
+#include "judge/comparison_summary.h"
+#include "judge/held_out.h"
 #include "support/broken_table.h"
 #include "support/program.h"
 #include "support/reference.h"
@@ -27,8 +29,6 @@
 #include "table/lookup.h"
 #include "table/queries.h"
 #include "test_paths.h"
-#include "validate/comparison_summary.h"
-#include "validate/held_out.h"
 
 namespace ltc::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "judge/compare.h"
 #include "table/synthetic.h"
-#include "validate/compare.h"
 
 namespace ltc::test {
 

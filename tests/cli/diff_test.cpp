@@ -12,9 +12,9 @@
 #include "cli/diff_tables.h"
 #include "export/hdf5.h"
 #include "export/npy.h"
+#include "judge/compare.h"
 #include "picture/png.h"
 #include "support/program.h"
-#include "validate/compare.h"
 
 namespace ltc::test {
 namespace {

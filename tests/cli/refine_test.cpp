@@ -10,11 +10,11 @@
 #include "export/exr.h"
 #include "export/hdf5.h"
 #include "export/same_tables.h"
+#include "judge/held_out.h"
 #include "support/refused_run.h"
 #include "table/lookup.h"
 #include "table/queries.h"
 #include "test_paths.h"
-#include "validate/held_out.h"
 
 namespace ltc::test {
 namespace {

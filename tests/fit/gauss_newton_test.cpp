@@ -12,8 +12,8 @@
 #include "core/angle.h"
 #include "fit/lobes.h"
 #include "fit/starting_points.h"
+#include "judge/held_out.h"
 #include "statistics.h"
-#include "validate/held_out.h"
 
 namespace ltc {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "fit/lobes.h"
 #include "fit/starting_points.h"
+#include "judge/held_out.h"
 #include "ltc/ltsd.h"
-#include "validate/held_out.h"
 
 namespace ltc {
 namespace {

@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 
 #include "fit/lobes.h"
-#include "validate/held_out.h"
+#include "judge/held_out.h"
 
 namespace ltc {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "fit/lobes.h"
 #include "fit/solver.h"
-#include "validate/held_out.h"
+#include "judge/held_out.h"
 
 namespace ltc {
 namespace {

@@ -6,10 +6,10 @@
 #include <Eigen/SVD>
 
 #include "core/error.h"
+#include "judge/quality.h"
 #include "pipeline/fit_one.h"
 #include "pipeline/generate.h"
 #include "support/refusal.h"
-#include "validate/quality.h"
 
 namespace ltc {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "export/same_tables.h"
 #include "fit/lobe_frame.h"
+#include "judge/lobe_quantiles.h"
 #include "pipeline/generate.h"
-#include "validate/lobe_quantiles.h"
 
 namespace ltc {
 namespace {

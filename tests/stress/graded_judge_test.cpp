@@ -9,7 +9,7 @@
 
 #include "core/angle.h"
 #include "fit/starting_points.h"
-#include "validate/held_out.h"
+#include "judge/held_out.h"
 
 namespace ltc {
 namespace {

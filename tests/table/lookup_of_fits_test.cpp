@@ -8,10 +8,10 @@
 
 #include "fit/lobes.h"
 #include "fit/solver.h"
+#include "judge/held_out.h"
 #include "pipeline/generate.h"
 #include "table/folding.h"
 #include "table/lookup.h"
-#include "validate/held_out.h"
 
 namespace ltc {
 namespace {

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "judge/compare.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+
+#include "align/align.h"
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace ltc {
+namespace {
+
+// All that an entry's figures depend on, bit by bit: alpha_x, alpha_y, the view direction and both
+// matrices.
+using LobeBits = std::array<std::uint64_t, 23>;
+
+LobeBits bits_of(const GgxLobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  LobeBits bits;
+  auto next = bits.begin();
+  const auto add = [&](double value) { *next++ = std::bit_cast<std::uint64_t>(value); };
+  add(lobe.alpha_x);
+  add(lobe.alpha_y);
+  for (const double value : lobe.omega_v())
+    add(value);
+  for (int i = 0; i < 9; ++i) {
+    add(a(i));
+    add(b(i));
+  }
+  return bits;
+}
+
+// The first entry of those that are the same, for every entry.
+std::vector<std::size_t> first_of_same(const Table& a, const Table& b) {
+  std::map<LobeBits, std::size_t> first;
+  std::vector<std::size_t> result(a.grid.size());
+  for (std::size_t flat = 0; flat < result.size(); ++flat)
+    result[flat] =
+        first
+            .try_emplace(
+                bits_of(a.grid.lobe(a.grid.node(flat)), a.matrix_at(flat), b.matrix_at(flat)), flat)
+            .first->second;
+  return result;
+}
+
+double difference(float a, float b) {
+  return std::abs(static_cast<double>(a) - static_cast<double>(b));
+}
+
+}  // namespace
+
+EntryComparison compare_lobes(const GgxLobe& lobe, const Eigen::Matrix3d& a,
+                              const Eigen::Matrix3d& b, HeldOutJudge& judge) {
+  const bool both = a.allFinite() && b.allFinite();
+  const Eigen::Matrix3d nearest_b = both ? align_to(a, b) : b;
+  const PairJudgement judgement = judge.judge_pair(lobe, a, nearest_b);
+  EntryComparison entry{judgement.loss_a, judgement.loss_b, judgement.spread, judgement.distance};
+  if (both)
+    entry.matrix_difference = (a / a.col(2).norm() - nearest_b / nearest_b.col(2).norm())
+                                  .cwiseAbs()
+                                  .maxCoeff<Eigen::PropagateNaN>();
+  return entry;
+}
+
+void require_same_grid(const Grid& a, const Grid& b) {
+  if (a == b)
+    return;
+  const auto shape = [](const Grid& grid) {
+    const auto s = grid.shape();
+    return fmt::format("{}x{}x{}x{}", s[0], s[1], s[2], s[3]);
+  };
+  if (a.shape() != b.shape())
+    throw InputError(
+        fmt::format("the tables have different shapes: {} and {}; entries can only be "
+                    "compared on the same grid",
+                    shape(a), shape(b)));
+  throw InputError(
+      "the tables have different axes or another alpha_min; entries can only be "
+      "compared on the same grid");
+}
+
+std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
+                                            const CompareSettings& settings, int threads,
+                                            Progress* progress) {
+  require_same_grid(a.grid, b.grid);
+  const std::vector<std::size_t> first = first_of_same(a, b);
+  std::vector<std::size_t> to_judge;
+  for (std::size_t flat = 0; flat < first.size(); ++flat)
+    if (first[flat] == flat)
+      to_judge.push_back(flat);
+
+  std::vector<EntryComparison> entries(first.size());
+  const HeldOutJudge prototype(settings.samples, settings.directions, settings.seed);
+  parallel_for_each<HeldOutJudge>(
+      "compare", to_judge.size(), threads, progress, [&] { return prototype; },
+      [&](std::size_t i, HeldOutJudge& judge) {
+        const std::size_t flat = to_judge[i];
+        entries[flat] = compare_lobes(a.grid.lobe(a.grid.node(flat)), a.matrix_at(flat),
+                                      b.matrix_at(flat), judge);
+      });
+  for (std::size_t flat = 0; flat < entries.size(); ++flat) {
+    entries[flat] = entries[first[flat]];
+    entries[flat].amplitude_difference = difference(a.amplitude[flat], b.amplitude[flat]);
+    entries[flat].fresnel_difference = difference(a.fresnel[flat], b.fresnel[flat]);
+  }
+  return entries;
+}
+
+}  // namespace ltc

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The judge: the sliced-Wasserstein loss of a matrix on samples that no fit has seen.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "brdf/ggx.h"
+#include "fit/lobe_frame.h"
+#include "fit/quantile_model.h"
+#include "fit/sample_sets.h"
+#include "judge/quantile_cells.h"
+
+namespace hwy {
+class Sorter;
+}
+
+namespace ltc {
+
+// What two matrices are to a lobe, and to each other: sliced-Wasserstein distances; NaN where a
+// matrix that they need is not finite.
+struct PairJudgement {
+  double loss_a = 0, loss_b = 0;  // to the GGX lobe
+  double distance = 0;            // between the two LTC
+  double spread = 0;              // of the GGX lobe, see HeldOutJudge::spread
+};
+
+// Sorts, never bins: the distance between the two sample sets is exact.
+class HeldOutJudge {
+ public:
+  // `samples` weighted lattice samples of the lobe and as many cosine samples, along `directions`
+  // of sample_sets.h's turned ones; the seed shifts the lattices and turns the directions, so that
+  // they differ from those of any fit.
+  explicit HeldOutJudge(std::size_t samples = 16384, std::size_t directions = 64,
+                        std::uint64_t seed = 20220712);
+
+  // Sets the lobe that loss and spread judge against; before either.
+  void set_lobe(const GgxLobe& lobe);
+
+  // Equation (9) of Aakash et al. 2022 between the lobe and the LTC of M; NaN for a matrix that is
+  // not finite.
+  double loss(const Eigen::Matrix3d& matrix);
+
+  // Mean absolute deviation of the lobe's projections from their median, averaged over the
+  // directions: the distance to the best single direction. Losses are judged relative to it.
+  double spread() const { return spread_; }
+
+  // The same figures for two matrices at once, and the distance between their LTC. Independent of
+  // set_lobe, and keeps nothing: sets are sorted one direction at a time and stay in the cache.
+  PairJudgement judge_pair(const GgxLobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
+
+ private:
+  struct Points {  // as offsets from the mirror direction, in its frame
+    AlignedFloats x, y, z;
+  };
+  void sample_target(const LobeFrame& frame);
+  // The lobe's samples along one direction.
+  void sort_target(const Eigen::Vector3f& direction, const hwy::Sorter& sorter,
+                   QuantileCells& cells);
+  void transform(const LobeFrame& frame, const Eigen::Matrix3d& matrix, Points& points) const;
+
+  CosineSet cosines_;
+  TargetLattice lattice_;
+  std::vector<Eigen::Vector3d> directions_;
+  std::optional<LobeFrame> frame_;
+  std::vector<QuantileCells> cells_;  // of set_lobe's, one a direction
+  double spread_ = 0;
+  // Scratch of one call.
+  TargetSamples target_;
+  double target_total_ = 0;
+  float target_largest_ = 0;
+  AlignedVector<std::uint64_t> keys_;
+  QuantileCells pair_cells_;
+  Points points_, points_b_;
+  AlignedFloats sorted_, sorted_b_;
+};
+
+}  // namespace ltc

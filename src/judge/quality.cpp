@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "judge/quality.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "fit/fit_table.h"
+#include "fit/solver.h"
+#include "judge/quality_summary.h"
+#include "ltc/ltsd.h"
+#include "table/query_range.h"
+
+namespace ltc {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+void check(const QualitySettings& settings) {
+  const auto require = [](const char* what, std::size_t value, std::size_t least) {
+    if (value < least)
+      throw InputError(fmt::format("quality by {} {}; expected at least {}", value, what, least));
+  };
+  require("node samples", settings.node_samples, 16);
+  require("node directions", settings.node_directions, 1);
+  require("query samples", settings.query_samples, 16);
+  require("query directions", settings.query_directions, 1);
+  const QueryRange& range = settings.range;
+  if (range.roughness_first > range.roughness_last)
+    throw InputError(fmt::format("queries of roughness from {} to {}; expected a rising range",
+                                 range.roughness_first, range.roughness_last));
+}
+
+HeldOutJudge node_judge(const QualitySettings& settings, std::size_t flat) {
+  return HeldOutJudge(settings.node_samples, settings.node_directions, settings.seed + flat);
+}
+
+// By judge_pair, which holds one direction at a time: what set_lobe would keep of all of them is
+// megabytes, and asking the system for them anew for every lobe takes as long as the judging.
+double relative_loss(HeldOutJudge judge, const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
+  const PairJudgement judgement = judge.judge_pair(lobe, matrix, matrix);
+  return judgement.loss_a / judgement.spread;
+}
+
+QueryQuality left_out(QueryState state) {
+  const AreaLightError none{nan, nan, nan};
+  return {state, nan, none, none, nan};
+}
+
+QueryQuality judge_query(const Table& table, const QualitySettings& settings,
+                         const QueryFloor& floor, std::size_t query, AreaLightJudge& area_light) {
+  const auto [state, found] = ask(table, floor.lobe);
+  if (state != QueryState::judged)
+    return left_out(state);
+  area_light.set_lobe(floor.lobe, query);
+  return {QueryState::judged, relative_loss(query_judge(settings, query), floor.lobe, found.matrix),
+          area_light.error(found.matrix), area_light.error(found.matrix, found.amplitude),
+          share_below_horizon(found.matrix)};
+}
+
+Statistics nodes_below_horizon(const Table& table) {
+  std::vector<double> shares(table.grid.size(), nan);
+  for (std::size_t flat = 0; flat < shares.size(); ++flat)
+    if (has_values(table.status[flat]))
+      shares[flat] = share_below_horizon(table.matrix_at(flat));
+  return statistics_of(shares);
+}
+
+// Which nodes are judged: all, or as many as the settings say, drawn without replacement.
+std::vector<std::size_t> nodes_to_judge(const Table& table, const QualitySettings& settings) {
+  std::vector<std::size_t> nodes;
+  for (std::size_t flat = 0; flat < table.grid.size(); ++flat)
+    if (has_values(table.status[flat]))
+      nodes.push_back(flat);
+  if (nodes.size() <= settings.most_nodes)
+    return nodes;
+  Random random(settings.seed);
+  for (std::size_t i = 0; i < settings.most_nodes; ++i) {
+    const auto left = static_cast<double>(nodes.size() - i);
+    std::swap(nodes[i], nodes[i + static_cast<std::size_t>(random.uniform() * left)]);
+  }
+  nodes.resize(settings.most_nodes);
+  return nodes;
+}
+
+std::vector<double> judge_nodes(const Table& table, const QualitySettings& settings, int threads,
+                                Progress* progress) {
+  std::vector<double> losses(table.grid.size(), nan);
+  const std::vector<std::size_t> nodes = nodes_to_judge(table, settings);
+  parallel_for_each("judge nodes", nodes.size(), threads, progress, [&](std::size_t i) {
+    const std::size_t flat = nodes[i];
+    losses[flat] = relative_loss(node_judge(settings, flat), table.grid.lobe(table.grid.node(flat)),
+                                 table.matrix_at(flat));
+  });
+  return losses;
+}
+
+std::vector<QueryQuality> judge_queries(const Table& table, const QualitySettings& settings,
+                                        const std::vector<QueryFloor>& floors, int threads,
+                                        Progress* progress) {
+  std::vector<QueryQuality> queries(floors.size());
+  const AreaLightJudge prototype = area_light_judge(settings);
+  parallel_for_each<AreaLightJudge>(
+      "judge queries", queries.size(), threads, progress, [&] { return prototype; },
+      [&](std::size_t i, AreaLightJudge& area_light) {
+        queries[i] = judge_query(table, settings, floors[i], i, area_light);
+      });
+  return queries;
+}
+
+}  // namespace
+
+HeldOutJudge query_judge(const QualitySettings& settings, std::size_t query) {
+  return HeldOutJudge(settings.query_samples, settings.query_directions, settings.seed + query);
+}
+
+AreaLightJudge area_light_judge(const QualitySettings& settings) {
+  return AreaLightJudge({settings.quads, settings.quad_samples, settings.seed});
+}
+
+Answer ask(const Table& table, const GgxLobe& lobe) {
+  const LookUp found = look_up(table, lobe);
+  const QueryState state = !Reduction(table.grid).covers(lobe) ? QueryState::outside
+                           : !found.matrix.allFinite()         ? QueryState::missing
+                                                               : QueryState::judged;
+  return {state, found};
+}
+
+FitSettings floor_fit_settings() {
+  FitSettings settings;
+  settings.gauss_newton.starts = 3;
+  settings.gauss_newton.start_margin = 1e9;
+  settings.gauss_newton.adaptive = false;
+  return settings;
+}
+
+std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alpha_min, int threads,
+                                    Progress* progress) {
+  check(settings);
+  const std::vector<GgxLobe> lobes =
+      random_queries(settings.range, settings.queries, settings.seed, alpha_min);
+  std::vector<QueryFloor> floors(lobes.size());
+  const std::unique_ptr<Solver> solver = make_solver(settings.floor_fit);
+  struct State {
+    FitWorkspacePointer workspace;
+    AreaLightJudge area_light;
+  };
+  const AreaLightJudge prototype = area_light_judge(settings);
+  parallel_for_each<State>(
+      "fit queries", lobes.size(), threads, progress,
+      [&] {
+        return State{make_fit_workspace(), prototype};
+      },
+      [&](std::size_t i, State& state) {
+        FitRequest request;
+        request.lobe = lobes[i];
+        request.seed = entry_seed(settings.floor_fit.seed, i);
+        request.progress = progress;
+        state.area_light.set_lobe(lobes[i], i);
+        QueryFloor& floor = floors[i];
+        floor.lobe = lobes[i];
+        floor.matrix = solver->fit(request, *state.workspace, nullptr).matrix;
+        floor.relative_loss = relative_loss(query_judge(settings, i), lobes[i], floor.matrix);
+        floor.area_light = state.area_light.error(floor.matrix);
+      });
+  return floors;
+}
+
+QualityReport measure_quality(const Table& table, const QualitySettings& settings,
+                              std::vector<QueryFloor> floors, int threads, Progress* progress) {
+  check(settings);
+  QualityReport report;
+  report.settings = settings;
+  report.floors = std::move(floors);
+  report.node_losses = judge_nodes(table, settings, threads, progress);
+  report.nodes_without_values = static_cast<std::size_t>(std::count_if(
+      table.status.begin(), table.status.end(), [](Status s) { return !has_values(s); }));
+  report.queries = judge_queries(table, settings, report.floors, threads, progress);
+  report.nodes_below_horizon = nodes_below_horizon(table);
+  summarize_quality(report);
+  return report;
+}
+
+QualityReport measure_quality(const Table& table, const QualitySettings& settings, int threads,
+                              Progress* progress) {
+  check(settings);
+  QualitySettings served = settings;
+  served.range = query_range_of(table.grid, settings.range);
+  return measure_quality(table, served,
+                         fit_queries(served, table.grid.alpha_min, threads, progress), threads,
+                         progress);
+}
+
+}  // namespace ltc

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What a shader's inverse costs: matrices inverted in single or half precision, in several orders
+// of operations, and how far that moves the lobe.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "core/progress.h"
+#include "fit/lobe_frame.h"
+#include "judge/lobe_quantiles.h"
+#include "table/table.h"
+
+namespace ltc {
+
+// With M = F S A, F = Q or 1 and A = diag(alpha_x, alpha_y, 1) as the storage says (storage.h).
+enum class InverseOrder {
+  // M as a whole, then cofactors over the determinant.
+  divided,
+  // M as a whole, then its adjugate times the sign of the determinant: M^-1 but for a positive
+  // factor, which no direction feels.
+  adjugate,
+  // The adjugate of M with its columns divided by the roughness and turned into the mirror's frame:
+  // adj(F' M A^-1), F' = Q^T. The caller turns vertices by Q^T first and divides rows by A last.
+  factored,
+};
+std::string_view inverse_order_name(InverseOrder order);
+
+// The matrix whose inverse in all digits is what a shader has: M but for what storing S, forming M
+// and inverting it lose. `stored` is rounded to `memory` first; all that follows is in
+// `arithmetic`. NaN where the shader has no inverse: an entry that overflows, a determinant of
+// zero, or a sign of the determinant that rounding turned, which puts the lobe's mirror image at
+// the opposite side. With `factored` and storage "matrix", S is put into the mirror's frame in
+// `arithmetic`.
+Eigen::Matrix3d seen_by_shader(Storage storage, const Eigen::Matrix3d& stored,
+                               const LobeFrame& frame, InverseOrder order, Precision memory,
+                               Precision arithmetic);
+
+// Distances of lobes to what a shader sees of them.
+class InversionMeter {
+ public:
+  InversionMeter(std::size_t samples, std::size_t directions);
+
+  // Sliced-Wasserstein distance of the LTCs of two matrices over the spread of the first; infinite
+  // where the second is not finite. Finite `exact`.
+  double error(const LobeFrame& frame, const Eigen::Matrix3d& exact, const Eigen::Matrix3d& seen);
+
+ private:
+  LobeQuantiles quantiles_;
+  std::vector<float> exact_, seen_;
+};
+
+// That error at every entry of a table that is `judged`, NaN at the others; `seen` makes the matrix
+// that is seen there. The same bits for any number of threads. Throws Interrupted.
+std::vector<double> inversion_errors(
+    const Table& table, const std::vector<bool>& judged, std::string_view stage, int threads,
+    Progress* progress, const std::function<Eigen::Matrix3d(std::size_t, const LobeFrame&)>& seen);
+
+}  // namespace ltc

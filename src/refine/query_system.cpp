@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "refine/query_system.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "core/random.h"
+
+namespace ltc {
+namespace {
+
+constexpr std::size_t set_count = 8;
+constexpr std::size_t bins = 32;
+// As in the descent of one lobe: below this share of the loss a residual counts as zero.
+constexpr double smoothing_share = 0.05;
+
+Eigen::Matrix3d random_rotation(Random& random) {
+  const Eigen::Quaterniond turn(random.normal(), random.normal(), random.normal(), random.normal());
+  return turn.normalized().toRotationMatrix();
+}
+
+// P = left S right for the matrix S that a table of this storage interpolates.
+struct FrameOfStored {
+  Eigen::Matrix3d left, right;
+};
+FrameOfStored frame_of_stored(Storage storage, const LobeFrame& frame) {
+  FrameOfStored map{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
+  if (storage != Storage::mirror_frame)
+    map.left = frame.rotation.transpose();
+  if (storage == Storage::matrix)
+    map.right.diagonal() << 1 / frame.lobe.alpha_x, 1 / frame.lobe.alpha_y, 1;
+  return map;
+}
+
+// dP/dS as a 9 x 9 matrix between row-major matrices.
+Matrix9 jacobian(const FrameOfStored& map) {
+  Matrix9 result;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      for (int from = 0; from < 3; ++from)
+        for (int to = 0; to < 3; ++to)
+          result(3 * row + column, 3 * from + to) = map.left(row, from) * map.right(to, column);
+  return result;
+}
+
+bool complete(const Interpolation& corners, const std::vector<bool>& has_values) {
+  for (std::size_t corner = 0; corner < 16; ++corner)
+    if (corners.weights[corner] != 0 && !has_values[corners.nodes[corner]])
+      return false;
+  return true;
+}
+
+// The lobes that a table can be asked for, cell by cell: sorted by the cell's first node, which
+// tells the others, and within a cell as they came.
+std::vector<std::size_t> ordered_by_cell(const Grid& grid, const std::vector<bool>& has_values,
+                                         const std::vector<GgxLobe>& lobes,
+                                         const Reduction& reduction, const Progress* progress) {
+  const std::size_t left_out = grid.size();
+  std::vector<std::size_t> first_node(lobes.size()), begin(grid.size() + 1);
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    if (progress)
+      progress->throw_if_stopped();
+    const Interpolation corners = interpolation(grid, reduction.fold(lobes[i]).lobe);
+    const bool asked = reduction.covers(lobes[i]) && complete(corners, has_values);
+    first_node[i] = asked ? corners.nodes[0] : left_out;
+    if (asked)
+      ++begin[corners.nodes[0] + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::size_t> order(begin.back());
+  for (std::size_t i = 0; i < lobes.size(); ++i)
+    if (first_node[i] != left_out)
+      order[begin[first_node[i]]++] = i;
+  return order;
+}
+
+}  // namespace
+
+QuerySystem::QuerySystem(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
+                         const std::vector<GgxLobe>& lobes, const std::vector<double>& weights,
+                         const QuerySampling& sampling, double shift, const Progress* progress)
+    : storage_(storage), node_count_(grid.size()) {
+  make_sets(sampling, shift);
+  const Reduction reduction(grid);
+  const std::vector<std::size_t> order =
+      ordered_by_cell(grid, has_values, lobes, reduction, progress);
+  corners_of_node_.resize(node_count_);
+  queries_.reserve(order.size());
+  for (const std::size_t i : order) {
+    const GgxLobe folded = reduction.fold(lobes[i]).lobe;
+    const Interpolation corners = interpolation(grid, folded);
+    if (cells_.empty() || cells_.back().nodes != corners.nodes) {
+      if (progress)
+        progress->throw_if_stopped();
+      for (std::size_t corner = 0; corner < 16; ++corner)
+        corners_of_node_[corners.nodes[corner]].push_back({cells_.size(), corner});
+      cells_.push_back({corners.nodes, queries_.size(), queries_.size()});
+    }
+    // Neighbours in a cell are measured with different sets.
+    queries_.push_back({folded, corners.weights, weights[i], queries_.size() % set_count});
+    cells_.back().last = queries_.size();
+  }
+  models_.resize(queries_.size());
+  evaluated_.resize(queries_.size());
+  targets_.resize(queries_.size());
+}
+
+void QuerySystem::make_sets(const QuerySampling& sampling, double shift) {
+  Random random(static_cast<std::uint64_t>(shift * 0x1p32));
+  for (std::size_t set = 0; set < set_count; ++set) {
+    const double turned = shift + static_cast<double>(set) / set_count;
+    sets_.push_back({make_cosine_set(static_cast<std::size_t>(sampling.samples), turned),
+                     make_target_lattice(static_cast<std::size_t>(sampling.target_samples), turned),
+                     {}});
+    const Eigen::Matrix3d rotation = random_rotation(random);
+    for (const Eigen::Vector3d& d :
+         fibonacci_directions(static_cast<std::size_t>(sampling.directions)))
+      sets_.back().directions.push_back((rotation * d).cast<float>());
+  }
+}
+
+void QuerySystem::see_target(const LobeFrame& frame, const SampleSet& set, Buffers& buffers,
+                             BinnedTarget& binned) const {
+  if (!binned.values.empty()) {
+    buffers.quantiles.rebuild(binned, set.directions, bins);
+    return;
+  }
+  sample_weighted_target(frame, set.lattice, buffers.target);
+  buffers.quantiles.build(buffers.target, set.directions, bins, buffers.model.xi,
+                          buffers.model.bins);
+  buffers.quantiles.keep(binned);
+}
+
+void QuerySystem::evaluate_query(const Query& query, const Eigen::Matrix3d& interpolated,
+                                 BinnedTarget& binned, Buffers& buffers, Model& model) const {
+  const LobeFrame frame(query.lobe);
+  const SampleSet& set = sets_[query.set];
+  see_target(frame, set, buffers, binned);
+  const FrameOfStored map = frame_of_stored(storage_, frame);
+  const Eigen::Matrix3d p = map.left * interpolated * map.right;
+  const double spread = buffers.quantiles.spread(), share = query.weight / spread;
+  if (!p.allFinite()) {
+    model.loss = std::numeric_limits<double>::infinity();
+    return;
+  }
+  ModelValue value;
+  const double expected = model.loss > 0 ? model.loss / share : spread;
+  evaluate_model(frame, p, set.cosines, buffers.quantiles, 1, smoothing_share * expected,
+                 buffers.model, value);
+  const Matrix9 to_frame = jacobian(map);
+  model.loss = share * value.loss;
+  model.gradient.noalias() = share * (to_frame.transpose() * value.gradient);
+  // Symmetric on paper, and but for the rounding of the kernel's products.
+  const Matrix9 curvature = share * (to_frame.transpose() * value.curvature * to_frame);
+  model.curvature = 0.5 * (curvature + curvature.transpose());
+}
+
+double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, int threads,
+                             Progress* progress) {
+  // The loss at the model in use tells each query's smoothing.
+#pragma omp parallel num_threads(threads)
+  {
+    Buffers buffers;
+#pragma omp for schedule(dynamic)
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      const Cell& cell = cells_[c];
+      if (progress && progress->stop_requested())
+        continue;
+      for (std::size_t q = cell.first; q < cell.last; ++q) {
+        Eigen::Matrix3d interpolated = Eigen::Matrix3d::Zero();
+        for (std::size_t corner = 0; corner < 16; ++corner)
+          if (queries_[q].weights[corner] != 0)
+            interpolated += queries_[q].weights[corner] * stored[cell.nodes[corner]];
+        evaluated_[q].loss = models_[q].loss;
+        evaluate_query(queries_[q], interpolated, targets_[q], buffers, evaluated_[q]);
+      }
+      if (progress)
+        progress->advance(cell.last - cell.first);
+    }
+  }
+  if (progress)
+    progress->throw_if_stopped();
+  return std::accumulate(evaluated_.begin(), evaluated_.end(), 0.0,
+                         [](double sum, const Model& model) { return sum + model.loss; });
+}
+
+template <typename Value, typename Part>
+void QuerySystem::gather(std::vector<Value>& result, int threads, const Progress* progress,
+                         const Value& zero, Part&& part) const {
+  result.assign(node_count_, zero);
+  parallel_for(node_count_, threads, progress, [&](std::size_t node) {
+    for (const Corner& at : corners_of_node_[node]) {
+      Value of_cell = zero;
+      for (std::size_t q = cells_[at.cell].first; q < cells_[at.cell].last; ++q)
+        part(q, queries_[q].weights[at.corner], of_cell);
+      result[node] += of_cell;
+    }
+  });
+}
+
+void QuerySystem::gradient(NodeVectors& result, int threads, const Progress* progress) const {
+  gather<Vector9>(
+      result, threads, progress, Vector9::Zero(),
+      [&](std::size_t q, double weight, Vector9& sum) { sum += weight * models_[q].gradient; });
+}
+
+void QuerySystem::multiply(const NodeVectors& step, NodeVectors& result, int threads,
+                           const Progress* progress) const {
+  NodeVectors pulled(queries_.size());
+  parallel_for(cells_.size(), threads, progress, [&](std::size_t c) {
+    for (std::size_t q = cells_[c].first; q < cells_[c].last; ++q) {
+      Vector9 interpolated = Vector9::Zero();
+      for (std::size_t corner = 0; corner < 16; ++corner)
+        interpolated += queries_[q].weights[corner] * step[cells_[c].nodes[corner]];
+      // Into a value of its own: the order in which Eigen sums depends on where the result lies.
+      alignas(16) Vector9 product;
+      product = models_[q].curvature.lazyProduct(interpolated);
+      pulled[q] = product;
+    }
+  });
+  gather<Vector9>(result, threads, progress, Vector9::Zero(),
+                  [&](std::size_t q, double weight, Vector9& sum) { sum += weight * pulled[q]; });
+}
+
+void QuerySystem::diagonal_blocks(std::vector<Matrix9>& blocks, int threads,
+                                  const Progress* progress) const {
+  gather<Matrix9>(blocks, threads, progress, Matrix9::Zero(),
+                  [&](std::size_t q, double weight, Matrix9& sum) {
+                    sum += weight * weight * models_[q].curvature;
+                  });
+}
+
+std::size_t QuerySystem::memory_bytes(const QuerySampling& sampling, std::size_t queries,
+                                      std::size_t cells, std::size_t nodes) {
+  const auto directions = static_cast<std::size_t>(sampling.directions);
+  const std::size_t target = sizeof(BinnedTarget) + directions * (2 + 2 * bins) * sizeof(float);
+  const std::size_t query =
+      sizeof(Query) + 2 * sizeof(Model) + sizeof(Vector9) + target + 2 * sizeof(std::size_t);
+  // A node's corners grow by doubling, and may have just grown.
+  return queries * query + cells * 2 * (sizeof(Cell) + 16 * sizeof(Corner)) +
+         nodes * sizeof(std::vector<Corner>);
+}
+
+}  // namespace ltc

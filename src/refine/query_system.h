@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The loss of many look-ups as a function of all the table's matrices, to second order.
+//
+// A look-up at query p interpolates S_p = sum_i w_pi S_i over its 16 nodes; its loss relative to
+// the lobe's spread has, at S_p, the gradient g_p and the Gauss-Newton curvature H_p of the
+// quantile model (quantile_model.h), nine and nine by nine numbers. The objective
+//     F = sum_p c_p loss_p / spread_p
+// therefore has, in the steps s_i of all nodes, the gradient and curvature
+//     (grad F)_i = sum_p c_p w_pi g_p,   (H s)_i = sum_p c_p w_pi H_p sum_j w_pj s_j.
+// The curvature is never formed: it couples a node with its 80 neighbours, but each query's part is
+// a 9 x 9 matrix between two interpolations.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/progress.h"
+#include "fit/quantile_model.h"
+#include "refine/node_space.h"
+#include "refine/refine_settings.h"
+#include "table/lookup.h"
+#include "table/storage.h"
+
+namespace ltc {
+
+class QuerySystem {
+ public:
+  // The look-ups of `lobes` with weights c_p. Those beyond the axes, which no table serves, and
+  // those that need a node without values are left out. Systems of different `shift` in [0, 1)
+  // share no samples.
+  QuerySystem(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
+              const std::vector<GgxLobe>& lobes, const std::vector<double>& weights,
+              const QuerySampling& sampling, double shift, const Progress* progress = nullptr);
+
+  // What so many queries in so many cells need, about, and while they are multiplied with.
+  static std::size_t memory_bytes(const QuerySampling& sampling, std::size_t queries,
+                                  std::size_t cells, std::size_t nodes);
+
+  std::size_t size() const { return queries_.size(); }
+
+  // F at `stored`; also makes the model there, which adopt() takes into use. Infinite where a
+  // matrix is not finite. Throws Interrupted when `progress` asks for a stop.
+  double evaluate(const std::vector<Eigen::Matrix3d>& stored, int threads, Progress* progress);
+  void adopt() { models_.swap(evaluated_); }
+
+  // Throw Interrupted too. Of the model in use: gradient, curvature times a step, the curvature's
+  // blocks on the diagonal. Sums have a fixed order: the same bits for any number of threads.
+  void gradient(NodeVectors& result, int threads, const Progress* progress = nullptr) const;
+  void multiply(const NodeVectors& step, NodeVectors& result, int threads,
+                const Progress* progress = nullptr) const;
+  void diagonal_blocks(std::vector<Matrix9>& blocks, int threads,
+                       const Progress* progress = nullptr) const;
+
+ private:
+  struct Query {
+    GgxLobe lobe;
+    std::array<double, 16> weights;  // of the cell's nodes
+    double weight;                   // c_p
+    std::size_t set;                 // of samples and directions
+  };
+  // In the stored variables, times c_p / spread.
+  struct Model {
+    double loss = 0;
+    Vector9 gradient;
+    Matrix9 curvature;
+  };
+  // Neighbouring queries, which share their 16 nodes.
+  struct Cell {
+    std::array<std::size_t, 16> nodes;
+    std::size_t first, last;  // queries
+  };
+  struct SampleSet {
+    CosineSet cosines;
+    TargetLattice lattice;
+    std::vector<Eigen::Vector3f> directions;
+  };
+  struct Buffers {
+    TargetSamples target;
+    TargetQuantiles quantiles;
+    ModelWorkspace model;
+  };
+
+  void make_sets(const QuerySampling& sampling, double shift);
+  // The query's target: measured the first time, and kept, for it does not change.
+  void see_target(const LobeFrame& frame, const SampleSet& set, Buffers& buffers,
+                  BinnedTarget& binned) const;
+  void evaluate_query(const Query& query, const Eigen::Matrix3d& interpolated, BinnedTarget& binned,
+                      Buffers& buffers, Model& model) const;
+  // Sums at every node what `part` adds for each query of its cells.
+  template <typename Value, typename Part>
+  void gather(std::vector<Value>& result, int threads, const Progress* progress, const Value& zero,
+              Part&& part) const;
+
+  struct Corner {
+    std::size_t cell, corner;
+  };
+
+  Storage storage_;
+  std::size_t node_count_;
+  std::vector<SampleSet> sets_;
+  std::vector<Query> queries_;  // cell by cell
+  std::vector<Cell> cells_;
+  std::vector<std::vector<Corner>> corners_of_node_;
+  std::vector<Model> models_, evaluated_;
+  std::vector<BinnedTarget> targets_;
+};
+
+}  // namespace ltc

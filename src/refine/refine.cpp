@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "refine/refine.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+#include "refine/query_system.h"
+#include "refine/refine_queries.h"
+#include "refine/refine_step.h"
+
+namespace ltc {
+namespace {
+
+// Damping falls after a step that was taken and rises after one that was not.
+constexpr double damping_fall = 0.4, damping_rise = 6, least_damping = 1e-3;
+
+// No node's matrix comes nearer to a singular one than this share of its determinant, nor do its
+// columns, unless the fit was there already: rounded to half precision, with entries off by 2^-11
+// of them, or by 2^-25 if they are near zero, it must still have a determinant of the same sign,
+// and some digits of it.
+constexpr double least_determinant_share = 0.1, least_solid_angle = 0.01, most_condition = 1e6;
+
+// Sets of samples that the held-out queries do not share with those refined on.
+constexpr double refined_shift = 0.0, held_out_shift = 0.4321;
+
+// The condition is that of M, whatever the table stores.
+std::vector<SingularityBound> bounds_at(const Grid& grid, Storage storage,
+                                        const std::vector<Eigen::Matrix3d>& stored) {
+  std::vector<SingularityBound> bounds;
+  for (std::size_t flat = 0; flat < stored.size(); ++flat) {
+    const Eigen::Matrix3d& matrix = stored[flat];
+    const Eigen::Vector3d scale =
+        matrix_from_stored(storage, Eigen::Matrix3d::Identity(), grid.lobe(grid.node(flat)))
+            .colwise()
+            .norm();
+    bounds.push_back({least_determinant_share * matrix.determinant(),
+                      std::min(least_solid_angle, solid_angle_of_columns(matrix)),
+                      std::max(most_condition, frobenius_condition(matrix * scale.asDiagonal())),
+                      scale});
+  }
+  return bounds;
+}
+
+// How often the queries are evaluated, at most.
+std::size_t evaluations(const RefineSettings& settings) {
+  return static_cast<std::size_t>(settings.steps) + 1;
+}
+
+class Stage {
+ public:
+  Stage(Progress* progress, std::size_t total) : progress_(progress) {
+    if (progress_)
+      progress_->begin_stage("refine", total);
+  }
+  ~Stage() {
+    if (progress_)
+      progress_->end_stage();
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+ private:
+  Progress* const progress_;
+};
+
+}  // namespace
+
+std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& has_values,
+                                    const RefineSettings& settings) {
+  const std::size_t nodes = grid.size();
+  const std::size_t refined_on = refined_query_count(grid, has_values, settings) + nodes;
+  const std::size_t held_out =
+      std::min(refined_on, static_cast<std::size_t>(settings.held_out_queries));
+  // Three iterates and their bounds, the vectors and blocks of a step.
+  constexpr std::size_t of_node = 3 * sizeof(Eigen::Matrix3d) + sizeof(SingularityBound) +
+                                  sizeof(FreeEntries) + 8 * sizeof(Vector9) + 2 * sizeof(Matrix9);
+  return QuerySystem::memory_bytes(settings.sampling, refined_on, nodes, nodes) +
+         QuerySystem::memory_bytes(settings.sampling, held_out, held_out, nodes) +
+         (refined_on + held_out) * (sizeof(GgxLobe) + sizeof(double)) + nodes * of_node;
+}
+
+RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
+                    const std::vector<bool>& movable, const std::vector<QueryRange>& asked,
+                    const RefineSettings& settings, int threads, Progress* progress,
+                    std::vector<Eigen::Matrix3d>& stored) {
+  const WeightedLobes refined_on = queries_to_refine_on(grid, has_values, asked, settings);
+  const WeightedLobes held_out = queries_held_out(grid, asked, settings, refined_on.lobes.size());
+  const Stage stage(progress,
+                    evaluations(settings) * (refined_on.lobes.size() + held_out.lobes.size()));
+  QuerySystem queries(grid, storage, has_values, refined_on.lobes, refined_on.weights,
+                      settings.sampling, refined_shift, progress);
+  QuerySystem judge(grid, storage, has_values, held_out.lobes, held_out.weights, settings.sampling,
+                    held_out_shift, progress);
+  RefineReport report;
+  report.queries = queries.size();
+  if (judge.size() == 0)
+    return report;
+  if (progress)  // what is left out needs no work
+    progress->advance(evaluations(settings) * (refined_on.lobes.size() - queries.size() +
+                                               held_out.lobes.size() - judge.size()));
+  const NodeSpace space(grid, movable);
+  std::vector<Eigen::Matrix3d> current = stored;
+  space.symmetrise(current);
+  double objective = queries.evaluate(current, threads, progress);
+  queries.adopt();
+  // Relative to the weight of the queries that could be judged.
+  const double judged =
+      static_cast<double>(judge.size()) / static_cast<double>(held_out.lobes.size());
+  report.loss_before = report.loss_after = judge.evaluate(stored, threads, progress) / judged;
+  const std::vector<SingularityBound> bounds = bounds_at(grid, storage, current);
+  double damping = settings.damping;
+  while (report.steps < settings.steps) {
+    ++report.steps;
+    const NodeVectors step =
+        refinement_step(queries, space, current, damping, settings.overshoot, threads, progress);
+    const std::vector<Eigen::Matrix3d> trial = stepped(current, step, bounds);
+    const double next = queries.evaluate(trial, threads, progress);
+    if (!(next < objective)) {
+      damping *= damping_rise;
+      continue;
+    }
+    const double gain = objective - next;
+    objective = next;
+    queries.adopt();
+    current = trial;
+    damping = std::max(damping * damping_fall, least_damping);
+    const double loss = judge.evaluate(current, threads, progress) / judged;
+    if (loss < report.loss_after) {
+      report.loss_after = loss;
+      report.kept = true;
+      stored = current;
+    }
+    if (gain < settings.tolerance * objective)
+      break;
+  }
+  return report;
+}
+
+std::vector<double> node_losses(const Grid& grid, Storage storage,
+                                const std::vector<bool>& has_values,
+                                const std::vector<Eigen::Matrix3d>& stored, int threads,
+                                Progress* progress) {
+  const CosineSet cosines = make_cosine_set(2048);
+  const TargetLattice lattice = make_target_lattice(4096, 0.3);
+  const std::vector<Eigen::Vector3f> directions = in_float(fibonacci_directions(32));
+  constexpr std::size_t bins = 64;
+  struct State {
+    TargetSamples target;
+    TargetQuantiles quantiles;
+    ModelWorkspace workspace;
+    ModelValue value;
+  };
+  std::vector<double> losses(grid.size(), std::numeric_limits<double>::quiet_NaN());
+  parallel_for_each<State>(
+      "node losses", grid.size(), threads, progress, [] { return State(); },
+      [&](std::size_t flat, State& state) {
+        if (!has_values[flat])
+          return;
+        const LobeFrame frame(grid.lobe(grid.node(flat)));
+        sample_weighted_target(frame, lattice, state.target);
+        state.quantiles.build(state.target, directions, bins, state.workspace.xi,
+                              state.workspace.bins);
+        const Eigen::Matrix3d p =
+            frame.from_matrix(matrix_from_stored(storage, stored[flat], frame.lobe));
+        evaluate_model(frame, p / p.col(2).norm(), cosines, state.quantiles, 1,
+                       state.quantiles.spread(), state.workspace, state.value);
+        losses[flat] = state.value.loss;
+      });
+  return losses;
+}
+
+}  // namespace ltc

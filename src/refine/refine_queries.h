@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The lobes that a table is refined on, and those that judge the refinement.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "refine/refine_settings.h"
+#include "table/grid.h"
+
+namespace ltc {
+
+struct WeightedLobes {
+  std::vector<GgxLobe> lobes;
+  std::vector<double> weights;  // c_p
+};
+
+// How many lobes are refined on, besides the nodes' own: so many for each cell that has all its
+// nodes, and twice as many for every axis of one node. A cell then has half the corners for each
+// such axis, and a node as many queries as on other grids.
+std::size_t refined_query_count(const Grid& grid, const std::vector<bool>& has_values,
+                                const RefineSettings& settings);
+
+// Drawn from `asked` in turn, at least one range, on a low-discrepancy sequence; a share of them
+// uniform in the table's own axes; and the nodes' own lobes.
+WeightedLobes queries_to_refine_on(const Grid& grid, const std::vector<bool>& has_values,
+                                   const std::vector<QueryRange>& asked,
+                                   const RefineSettings& settings);
+
+// Drawn at random, and of equal weight; no more than `most`, those refined on: a small part of a
+// table is not judged for longer than it is refined.
+WeightedLobes queries_held_out(const Grid& grid, const std::vector<QueryRange>& asked,
+                               const RefineSettings& settings, std::size_t most);
+
+}  // namespace ltc

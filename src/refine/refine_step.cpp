@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "refine/refine_step.h"
+
+#include <Eigen/Cholesky>
+
+#include "core/parallel.h"
+
+namespace ltc {
+namespace {
+
+// What an entry that no query feels is damped with, as a share of the mean node's curvature.
+constexpr double least_curvature = 1e-4;
+
+// Conjugate gradients end when the residual's norm has fallen by this, or after so many iterations:
+// the model is not worth more.
+constexpr double residual_share = 1e-2;
+constexpr int most_iterations = 60;
+
+double dot(const NodeVectors& a, const NodeVectors& b) {
+  double sum = 0;
+  for (std::size_t node = 0; node < a.size(); ++node)
+    sum += a[node].dot(b[node]);
+  return sum;
+}
+
+class StepSystem {
+ public:
+  StepSystem(const QuerySystem& queries, const NodeSpace& space,
+             const std::vector<Eigen::Matrix3d>& stored, double damping, int threads,
+             const Progress* progress)
+      : queries_(queries), space_(space), stored_(stored), threads_(threads), progress_(progress) {
+    std::vector<Matrix9> blocks;
+    queries.diagonal_blocks(blocks, threads, progress);
+    Vector9 mean = Vector9::Zero();
+    for (const Matrix9& block : blocks)
+      mean += block.diagonal() / static_cast<double>(blocks.size());
+    damped_diagonal_.resize(blocks.size());
+    inverse_blocks_.resize(blocks.size());
+    parallel_for(blocks.size(), threads, progress, [&](std::size_t node) {
+      damped_diagonal_[node] = damping * (blocks[node].diagonal() + least_curvature * mean);
+      Matrix9 block = blocks[node];
+      block.diagonal() += damped_diagonal_[node];
+      inverse_blocks_[node] = block.ldlt().solve(Matrix9::Identity());
+      if (!inverse_blocks_[node].allFinite())
+        inverse_blocks_[node].setZero();
+    });
+  }
+
+  NodeVectors solve(const NodeVectors& right) const {
+    NodeVectors residual = right, product, solution(right.size(), Vector9::Zero());
+    space_.project(stored_, residual);
+    NodeVectors direction = conditioned(residual);
+    double energy = dot(residual, direction);
+    const double goal = residual_share * residual_share * energy;
+    for (int i = 0; i < most_iterations && energy > goal; ++i) {
+      multiply(direction, product);
+      const double curvature = dot(direction, product);
+      if (!(curvature > 0))
+        break;
+      const double length = energy / curvature;
+      for (std::size_t node = 0; node < solution.size(); ++node) {
+        solution[node] += length * direction[node];
+        residual[node] -= length * product[node];
+      }
+      const NodeVectors next = conditioned(residual);
+      const double next_energy = dot(residual, next);
+      for (std::size_t node = 0; node < solution.size(); ++node)
+        direction[node] = next[node] + (next_energy / energy) * direction[node];
+      energy = next_energy;
+    }
+    return solution;
+  }
+
+ private:
+  void multiply(const NodeVectors& step, NodeVectors& product) const {
+    queries_.multiply(step, product, threads_, progress_);
+    for (std::size_t node = 0; node < step.size(); ++node)
+      product[node] += damped_diagonal_[node].cwiseProduct(step[node]);
+    space_.project(stored_, product);
+  }
+  NodeVectors conditioned(const NodeVectors& residual) const {
+    NodeVectors result(residual.size());
+    for (std::size_t node = 0; node < residual.size(); ++node)
+      result[node].noalias() = inverse_blocks_[node] * residual[node];
+    space_.project(stored_, result);
+    return result;
+  }
+
+  const QuerySystem& queries_;
+  const NodeSpace& space_;
+  const std::vector<Eigen::Matrix3d>& stored_;
+  int threads_;
+  const Progress* progress_;
+  NodeVectors damped_diagonal_;
+  std::vector<Matrix9> inverse_blocks_;
+};
+
+}  // namespace
+
+NodeVectors refinement_step(const QuerySystem& queries, const NodeSpace& space,
+                            const std::vector<Eigen::Matrix3d>& stored, double damping,
+                            double overshoot, int threads, const Progress* progress) {
+  NodeVectors downhill;
+  queries.gradient(downhill, threads, progress);
+  for (Vector9& value : downhill)
+    value = -value;
+  NodeVectors step = StepSystem(queries, space, stored, damping, threads, progress).solve(downhill);
+  for (Vector9& value : step)
+    value *= overshoot;
+  return step;
+}
+
+}  // namespace ltc

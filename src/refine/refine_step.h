@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// One step of the refinement: the damped normal equations of all nodes, by conjugate gradients.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "refine/node_space.h"
+#include "refine/query_system.h"
+
+namespace ltc {
+
+// Solves Pi (H + damping D) Pi s = -Pi grad F of the model that `queries` has in use (refine.h) and
+// returns s times `overshoot`. Throws Interrupted when `progress` asks for a stop. The same bits
+// for any number of threads.
+NodeVectors refinement_step(const QuerySystem& queries, const NodeSpace& space,
+                            const std::vector<Eigen::Matrix3d>& stored, double damping,
+                            double overshoot, int threads, const Progress* progress = nullptr);
+
+}  // namespace ltc

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The picture of a lobe: GGX, its LTC and their difference side by side, and how the fit went.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "picture/canvas.h"
+#include "picture/chart.h"
+#include "picture/panel.h"
+#include "report/lobe_density.h"
+
+namespace ltc {
+
+// The colour scale that both lobes share: from zero, or logarithmic where a linear one would show a
+// dot on an empty ground (the peak above `sharp_peak` times the mean).
+inline constexpr double sharp_peak = 12;
+picture::Scale density_scale(const picture::Field& ggx, const picture::Field& ltc);
+
+// Three panels. `words` are written above and below, with a line on the projection.
+picture::PanelRow lobe_panels(const GgxLobe& lobe, const Eigen::Matrix3d& matrix,
+                              picture::Words words, std::size_t side = 256);
+
+// The panels, and a chart below them if it has a series.
+picture::Canvas render_lobe(const picture::PanelRow& panels, const picture::Chart& chart,
+                            int width = 1600);
+
+}  // namespace ltc
