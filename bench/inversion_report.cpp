@@ -93,7 +93,7 @@ Summary measure(const Table& table, const std::vector<Case>& cases, InverseOrder
                 Precision memory, Precision arithmetic) {
   std::vector<double> errors(cases.size());
   parallel_for_each<InversionMeter>(
-      "inverses", cases.size(), 2, nullptr, [] { return InversionMeter(samples, directions); },
+      "inverses", cases.size(), {2}, [] { return InversionMeter(samples, directions); },
       [&](std::size_t i, InversionMeter& meter) {
         const LobeFrame frame(cases[i].lobe);
         const Eigen::Matrix3d exact =

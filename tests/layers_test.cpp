@@ -104,4 +104,9 @@ TEST(Layers, PlatformHeadersAreOfOneFile) {
             std::vector<std::string>{"core/platform.cpp"});
 }
 
+TEST(Layers, OpenMPIsOfOneFile) {
+  EXPECT_EQ(strangers("(#pragma omp|omp_get_|#include <omp.h>)", ""),
+            std::vector<std::string>{"core/parallel.h"});
+}
+
 }  // namespace

@@ -226,7 +226,7 @@ std::vector<std::size_t> strided(const std::vector<std::size_t>& entries, std::s
   return chosen;
 }
 
-FrontierRun measure_frontier(const FrontierTask& task, Progress* progress) {
+FrontierRun measure_frontier(const FrontierTask& task, const RunContext& context) {
   for (const Table* table : {task.published, task.reference})
     if (table)
       require_same_grid(task.grid, table->grid);
@@ -236,28 +236,23 @@ FrontierRun measure_frontier(const FrontierTask& task, Progress* progress) {
   HeldOutJudge judge(task.judge.samples, task.judge.directions, task.judge.seed);
   std::vector<SettingRunner> runners;
   for (const BenchSetting& setting : task.settings)
-    runners.emplace_back(setting, task.grid, plan, *workspace, progress);
+    runners.emplace_back(setting, task.grid, plan, *workspace, context.progress);
 
   FrontierRun run;
   run.measurements.resize(task.settings.size());
-  if (progress)
-    progress->begin_stage("bench", task.entries.size() * task.settings.size());
+  const Stage stage(context, "bench", task.entries.size() * task.settings.size());
   for (std::size_t place = 0; place < task.entries.size(); ++place) {
     const std::size_t flat = task.entries[place];
     judge.set_lobe(task.grid.lobe(task.grid.node(flat)));
     for (std::size_t i = 0; i < runners.size(); ++i) {
       run.measurements[i].push_back(
           measure(task, task.settings[i], flat, whole[place], runners[i], judge));
-      if (!progress)
-        continue;
-      progress->advance();
-      progress->throw_if_stopped();
+      context.advance();
+      context.throw_if_stopped();
     }
     run.reference_loss.push_back(task.reference ? judge.loss(task.reference->matrix_at(flat))
                                                 : least_loss(run, place));
   }
-  if (progress)
-    progress->end_stage();
   return run;
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "bench/setting.h"
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "judge/comparison_summary.h"
 #include "table/table.h"
 
@@ -49,9 +49,9 @@ struct FrontierRun {
   std::vector<double> reference_loss;                       // one an entry of the task
 };
 
-// Throws InputError where a table has another grid than the task, Interrupted when `progress`
-// (which may be null) asks for a stop.
-FrontierRun measure_frontier(const FrontierTask& task, Progress* progress);
+// Throws InputError where a table has another grid than the task, Interrupted when a stop is asked
+// for.
+FrontierRun measure_frontier(const FrontierTask& task, const RunContext& context = {});
 
 // Where the judged matrices of a setting come from.
 enum class ErrorSource { own_fits, published_table, whole_fits, none };

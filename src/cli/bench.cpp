@@ -140,7 +140,7 @@ void bench(const Arguments& arguments) {
   task.published = published ? &*published : nullptr;
   task.reference = reference ? &*reference : nullptr;
   task.whole_fits = arguments.whole_fits;
-  report.run = measure_frontier(task, &progress);
+  report.run = measure_frontier(task, {1, &progress});
   report.summaries = summarize(task, report.run);
 
   progress.throw_if_stopped();

@@ -16,6 +16,7 @@
 #include "cli/progress.h"
 #include "cli/table_input.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/write_file.h"
 #include "report/ratio_map.h"
 
@@ -31,7 +32,7 @@ struct Arguments {
   std::optional<double> tolerance;
   CompareSettings settings;
   std::size_t queries = QualitySettings().queries;
-  int threads = default_threads();
+  int threads = processor_count();
 };
 
 // Tables of different grids have no nodes to compare: what asks for them is refused.
@@ -63,12 +64,11 @@ DiffSettings settings_for(const Arguments& arguments, const Table& a, const Tabl
 }
 
 DiffReport compare(const Arguments& arguments, NamedTable a, NamedTable b,
-                   const DiffSettings& settings, Progress& progress) {
+                   const DiffSettings& settings, const RunContext& run) {
   std::optional<std::vector<EntryComparison>> entries;
   if (a.table.grid == b.table.grid)
-    entries = compare_tables(a.table, b.table, settings.nodes, arguments.threads, &progress);
-  std::vector<QueryComparison> queries =
-      compare_queries(a.table, b.table, settings.use, arguments.threads, &progress);
+    entries = compare_tables(a.table, b.table, settings.nodes, run);
+  std::vector<QueryComparison> queries = compare_queries(a.table, b.table, settings.use, run);
   return DiffReport(std::move(a), std::move(b), settings, std::move(entries), std::move(queries),
                     arguments.tolerance);
 }
@@ -80,7 +80,8 @@ void diff(const Arguments& arguments) {
       b{arguments.b, read_input(arguments.b, arguments.layout)};
   const DiffSettings settings = settings_for(arguments, a.table, b.table);
   require_comparable(a, b, arguments, settings.use.queries > 0);
-  const DiffReport report = compare(arguments, std::move(a), std::move(b), settings, progress);
+  const DiffReport report =
+      compare(arguments, std::move(a), std::move(b), settings, {arguments.threads, &progress});
   if (!arguments.csv.empty())
     write_file(arguments.csv, report_csv(report));
   if (!arguments.map.empty())

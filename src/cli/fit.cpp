@@ -19,6 +19,7 @@
 #include "cli/table_input.h"
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/platform.h"
 #include "core/progress.h"
 #include "core/write_file.h"
@@ -50,7 +51,7 @@ struct Arguments {
   std::string trace, plot, json;      // empty: none
   std::optional<Layout> layout;       // of the table of as_in
   bool check_gradient = false;
-  int threads = default_threads();
+  int threads = processor_count();
 };
 
 // --solver, --seed and --samples are keys of the config by a shorter name.
@@ -175,7 +176,7 @@ std::vector<bool> needed_with(const Arguments& arguments, const Config& config) 
 }
 
 // The entry as its table has it, or the lobe by itself.
-FitReport run_fit(const Arguments& arguments, const Config& config, Progress& progress) {
+FitReport run_fit(const Arguments& arguments, const Config& config, const RunContext& run) {
   FitReport report;
   report.settings = config.fit;
   report.storage = config.storage;
@@ -193,9 +194,8 @@ FitReport run_fit(const Arguments& arguments, const Config& config, Progress& pr
   }
   const std::uint64_t seed = entry_seed(config.fit.seed, seed_index);
   if (!arguments.start.empty()) {
-    report.fit =
-        fit_lobe(config, lobe, seed, parse_start(arguments.start, config, lobe, report.entry, seed),
-                 &progress);
+    report.fit = fit_lobe(config, lobe, seed,
+                          parse_start(arguments.start, config, lobe, report.entry, seed), run);
   } else if (report.entry) {
     const std::vector<bool> needed = needed_with(arguments, config);
     if (!needed[*report.entry])
@@ -208,9 +208,9 @@ FitReport run_fit(const Arguments& arguments, const Config& config, Progress& pr
         plan_by_symmetry(config.grid, needed)[*report.entry].representative;
     if (representative != *report.entry)
       report.representative = representative;
-    report.fit = fit_table_entry(config, needed, *report.entry, arguments.threads, &progress);
+    report.fit = fit_table_entry(config, needed, *report.entry, run);
   } else {
-    report.fit = fit_lobe(config, lobe, seed, std::nullopt, &progress);
+    report.fit = fit_lobe(config, lobe, seed, std::nullopt, run);
   }
   return report;
 }
@@ -229,7 +229,7 @@ void require_one_name(const Arguments& arguments) {
 }
 
 // What the table holds for the lobe; nothing is fitted but the floor.
-void show_as_in(const Arguments& arguments, const Progress& progress) {
+void show_as_in(const Arguments& arguments, const RunContext& run) {
   StoredReport report{arguments.as_in,
                       contents_of(arguments.as_in),
                       read_input(arguments.as_in, arguments.layout),
@@ -243,10 +243,10 @@ void show_as_in(const Arguments& arguments, const Progress& progress) {
   };
   if (arguments.entry.empty()) {
     const GgxLobe lobe = parse_lobe(arguments);
-    report.lobe = named([&] { return stored_query(report.table, lobe, &progress); });
+    report.lobe = named([&] { return stored_query(report.table, lobe, run); });
   } else {
     const std::size_t entry = parse_entry(arguments.entry, report.table.grid);
-    report.lobe = named([&] { return stored_entry(report.table, entry, &progress); });
+    report.lobe = named([&] { return stored_entry(report.table, entry, run); });
   }
   if (!arguments.plot.empty())
     render_lobe(lobe_panels(report.lobe.lobe, report.lobe.matrix, picture_words(report)), {})
@@ -256,9 +256,9 @@ void show_as_in(const Arguments& arguments, const Progress& progress) {
 }
 
 // The lobe's fit, every step of it.
-void show_fit(const Arguments& arguments, Progress& progress) {
+void show_fit(const Arguments& arguments, const RunContext& run) {
   const Config config = load(arguments);
-  FitReport report = run_fit(arguments, config, progress);
+  FitReport report = run_fit(arguments, config, run);
   if (arguments.check_gradient)
     report.gradient = check_lobe_gradient(report.fit.lobe, report.fit.matrix);
   if (!arguments.trace.empty())
@@ -276,15 +276,16 @@ void show_fit(const Arguments& arguments, Progress& progress) {
 void fit(const Arguments& arguments, Files& files) {
   StopOnly progress;
   const StopOnInterrupt stop_on_interrupt(progress);
+  const RunContext run{arguments.threads, &progress};
   require_one_name(arguments);
   if (arguments.start == start_from)
     throw InputError("--start from=: expected from= and a table's file");
   if (arguments.start.starts_with(start_from))
     files.read("--start", start_table(arguments.start));
   if (arguments.as_in.empty())
-    show_fit(arguments, progress);
+    show_fit(arguments, run);
   else
-    show_as_in(arguments, progress);
+    show_as_in(arguments, run);
 }
 
 void add_lobe_options(CLI::App& app, Arguments& arguments) {

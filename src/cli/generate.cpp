@@ -20,6 +20,7 @@
 #include "cli/scene_file.h"
 #include "cli/summary.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/platform.h"
 #include "export/exr.h"
 #include "export/hdf5.h"
@@ -41,7 +42,7 @@ struct Arguments {
   std::string scene;                 // empty: the whole table
   std::string extend;                // empty: a new table
   std::string output = "out", json;  // json empty: none
-  int threads = default_threads();
+  int threads = processor_count();
   bool resume = false;
   double checkpoint_seconds = 5;
 };
@@ -195,7 +196,7 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
   Table table;
   CheckpointKeeper keeper(task, *journal, progress);
   keeper.guard([&] {
-    table = generate_table(config, work.to_fit, arguments.threads, &progress, &report.generate,
+    table = generate_table(config, work.to_fit, {arguments.threads, &progress}, &report.generate,
                            journal.get(), refine_context(work));
     table.created = created;
     keeper.close();
@@ -263,7 +264,7 @@ void generate(const Arguments& arguments, Files& files) {
   report.extends = work.existing.has_value();
   if (config.output.exr && config.output.exr_half)
     report.half = half_precision_text(
-        table.grid, half_precision_errors(table, with_values(table), arguments.threads, nullptr));
+        table.grid, half_precision_errors(table, with_values(table), {arguments.threads}));
   report.npy_left_out = config.output.npy && !writes_npy(config);
   report.seconds = seconds_since(began);
   report.peak_memory_bytes = platform::peak_memory_bytes();

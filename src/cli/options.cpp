@@ -3,7 +3,6 @@
 #include "cli/options.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,12 +10,11 @@
 
 #include "cli/output.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "export/config_file.h"
 
 namespace ltc::cli {
 namespace {
-
-constexpr int most_threads = 1024;
 
 std::optional<double> number_of(std::string_view text) {
   double value = 0;
@@ -167,10 +165,6 @@ void add_threads_option(CLI::App& app, int& threads) {
         whole_number(1, most_threads))
       ->option_text("N")
       ->group("How to run");
-}
-
-int default_threads() {
-  return omp_get_num_procs();
 }
 
 }  // namespace ltc::cli

@@ -88,7 +88,4 @@ struct ConfigHelp {
 void add_config_options(CLI::App& app, ConfigArguments& arguments, const ConfigHelp& help = {});
 void add_threads_option(CLI::App& app, int& threads);
 
-// As many threads as this process may use processors.
-int default_threads();
-
 }  // namespace ltc::cli

@@ -21,6 +21,7 @@
 #include "cli/roughness_options.h"
 #include "cli/table_input.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/version.h"
 #include "core/write_file.h"
 #include "export/reader.h"
@@ -43,7 +44,7 @@ struct Arguments {
   SphereSettings settings;
   std::string output = "out";
   std::string json;  // empty: none
-  int threads = default_threads();
+  int threads = processor_count();
 };
 
 // The tables that are rendered with, and what the pictures call them.
@@ -154,8 +155,8 @@ void render_all(const Arguments& arguments, const Tables& tables, RenderReport& 
     const Clock::time_point began = Clock::now();
     const std::string stage =
         fmt::format("render {:.4g}, {:.4g}", row.material.alpha_x, row.material.alpha_y);
-    row.images = render_sphere(tables.pointers(), row.material, settings, stage, arguments.threads,
-                               &progress);
+    row.images = render_sphere(tables.pointers(), row.material, settings, stage,
+                               {arguments.threads, &progress});
     report.seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
   }
 }

@@ -17,6 +17,7 @@
 #include "cli/progress.h"
 #include "config/overrides.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/write_file.h"
 #include "stress/report.h"
 
@@ -35,7 +36,7 @@ struct Arguments {
   bool quick = false;
   std::optional<std::uint64_t> seed;  // of lobes and fits; empty: the config's
   std::string json, csv, map;         // empty: none
-  int threads = default_threads();
+  int threads = processor_count();
 };
 
 // A solver as this command runs it.
@@ -142,7 +143,7 @@ std::vector<std::string> worst_commands(const StressReport& report, const Solver
 
 StressReport run_solver(const Arguments& arguments, const Solver& solver, Progress& progress) {
   StressReport report = prepared(arguments, solver);
-  report.run = run_stress(report.task, arguments.threads, &progress);
+  report.run = run_stress(report.task, {arguments.threads, &progress});
   report.verdict = judge_stress(report.run.fits, most_worst);
   report.commands = worst_commands(report, solver);
   return report;

@@ -11,6 +11,7 @@
 #include "cli/table_input.h"
 #include "cli/validate_report.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/write_file.h"
 #include "export/reader.h"
 #include "judge/validate_settings.h"
@@ -25,7 +26,7 @@ struct Arguments {
   ConfigArguments config;
   std::string json, report;  // empty: none
   bool no_quality = false;
-  int threads = default_threads();
+  int threads = processor_count();
 };
 
 constexpr const char* page_name = "index.html";
@@ -43,25 +44,25 @@ std::string written_text(const std::filesystem::path& page) {
 void validate(const Arguments& arguments, Files& files) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
+  const RunContext run{arguments.threads, &progress};
   if (!arguments.report.empty())
     files.write("--report", files.make_folder(arguments.report) / page_name);
   Validation report{
       arguments.table, read_input(arguments.table, arguments.layout), {}, std::nullopt, {}};
   const ValidateSettings settings = load_validate_settings(
       arguments.config.path(), arguments.config.overrides, settings_for(report.table));
-  report.invariants = check_invariants(report.table, settings.invariants, arguments.threads,
-                                       &progress, contents_of(arguments.table));
+  report.invariants =
+      check_invariants(report.table, settings.invariants, run, contents_of(arguments.table));
   if (!arguments.no_quality) {
-    report.quality = measure_quality(report.table, settings.quality, arguments.threads, &progress);
+    report.quality = measure_quality(report.table, settings.quality, run);
     report.thresholds = check_thresholds(*report.quality, settings.thresholds, settings.said);
     for (ThresholdCheck& check : report.thresholds)
       if (!check.reason.empty())
         check.reason = why_not_limited(report.table);
   }
-  const std::string page =
-      arguments.report.empty() ? "" : validation_page(report, {}, arguments.threads, &progress);
+  const std::string page = arguments.report.empty() ? "" : validation_page(report, {}, run);
   // The last chance to stop.
-  progress.throw_if_stopped();
+  run.throw_if_stopped();
   if (!page.empty())
     write_file(page_of(arguments), page);
   print_results(

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Independent work on all threads: progress, stops and exceptions handled in one place.
+// Independent work on all threads: progress, stops and exceptions handled in one place, the only
+// one that knows OpenMP.
 #pragma once
+
+#include <omp.h>
 
 #include <atomic>
 #include <cstddef>
@@ -9,34 +12,36 @@
 #include <mutex>
 #include <string_view>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 
 namespace ltc {
 
-// Calls work(i, state) for i in [0, count), each thread with a state of its own from make_state().
-// `work` may write only to what belongs to i, so that the result does not depend on the number of
-// threads. The first exception ends the work and is thrown again here; a stop that `progress`
-// (which may be null) asks for is thrown as Interrupted.
+constexpr int most_threads = 1024;
+
+// The processors that this process may use.
+inline int processor_count() {
+  return omp_get_num_procs();
+}
+
+// Calls work(i, state) for i in [0, count), each thread with a state of its own from make_state(),
+// as a part of a stage that is under way: nothing is counted. `work` may write only to what belongs
+// to i, so that the result does not depend on the number of threads. The first exception ends the
+// work and is thrown again here; a stop that is asked for is thrown as Interrupted.
 template <typename State, typename MakeState, typename Work>
-void parallel_for_each(std::string_view stage, std::size_t count, int threads, Progress* progress,
-                       MakeState&& make_state, Work&& work) {
+void parallel_for(std::size_t count, const RunContext& run, MakeState&& make_state, Work&& work) {
   std::exception_ptr failure;
   std::mutex failure_mutex;
   std::atomic<bool> failed{false};
   std::atomic<std::size_t> next{0};
-  if (progress)
-    progress->begin_stage(stage, count);
-#pragma omp parallel num_threads(threads)
+#pragma omp parallel num_threads(run.threads)
   {
     try {
       State state = make_state();
       // Taken one by one: entries differ in cost by far more than a counter does.
       for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
-        if (failed.load(std::memory_order_relaxed) || (progress && progress->stop_requested()))
+        if (failed.load(std::memory_order_relaxed) || run.stop_requested())
           break;
         work(i, state);
-        if (progress)
-          progress->advance();
       }
     } catch (...) {
       const std::lock_guard lock(failure_mutex);
@@ -45,34 +50,40 @@ void parallel_for_each(std::string_view stage, std::size_t count, int threads, P
       failed = true;
     }
   }
-  if (progress)
-    progress->end_stage();
   if (failure)
     std::rethrow_exception(failure);
-  if (progress)
-    progress->throw_if_stopped();
+  run.throw_if_stopped();
 }
 
-// Calls work(i) for i in [0, count) as a part of a stage that is under way: nothing is counted, and
-// `work` is too short to be taken one by one and throws nothing. Throws Interrupted as above.
+// As above, for work(i) that needs no state, is too short to be taken one by one and throws
+// nothing.
 template <typename Work>
-void parallel_for(std::size_t count, int threads, const Progress* progress, Work&& work) {
-#pragma omp parallel for num_threads(threads) schedule(static)
+void parallel_for(std::size_t count, const RunContext& run, Work&& work) {
+#pragma omp parallel for num_threads(run.threads) schedule(static)
   for (std::size_t i = 0; i < count; ++i)
-    if (!(progress && progress->stop_requested()))
+    if (!run.stop_requested())
       work(i);
-  if (progress)
-    progress->throw_if_stopped();
+  run.throw_if_stopped();
 }
 
-// As parallel_for_each, for work(i) that needs no state.
+// As parallel_for, as a stage of its own, which counts.
+template <typename State, typename MakeState, typename Work>
+void parallel_for_each(std::string_view stage, std::size_t count, const RunContext& run,
+                       MakeState&& make_state, Work&& work) {
+  const Stage counted(run, stage, count);
+  parallel_for<State>(count, run, make_state, [&](std::size_t i, State& state) {
+    work(i, state);
+    run.advance();
+  });
+}
+
+// The same for work(i) that needs no state.
 template <typename Work>
-void parallel_for_each(std::string_view stage, std::size_t count, int threads, Progress* progress,
+void parallel_for_each(std::string_view stage, std::size_t count, const RunContext& run,
                        Work&& work) {
   struct NoState {};
   parallel_for_each<NoState>(
-      stage, count, threads, progress, [] { return NoState(); },
-      [&](std::size_t i, NoState&) { work(i); });
+      stage, count, run, [] { return NoState(); }, [&](std::size_t i, NoState&) { work(i); });
 }
 
 }  // namespace ltc

@@ -12,7 +12,7 @@
 namespace ltc {
 
 // Shared by the workers of one stage and whoever watches them. Workers only add to an atomic
-// counter; drawing is the watcher's business. A null pointer to Progress means nobody watches.
+// counter; drawing is the watcher's business.
 class Progress {
  public:
   virtual ~Progress() = default;

@@ -66,8 +66,7 @@ std::string_view version() {
 
 FittedLobe fit(const Lobe& lobe, const Config& config) {
   const ltc::Config settings = load(config);
-  const ltc::LobeFit fit =
-      ltc::fit_lobe(settings, checked(lobe), settings.fit.seed, std::nullopt, nullptr);
+  const ltc::LobeFit fit = ltc::fit_lobe(settings, checked(lobe), settings.fit.seed, std::nullopt);
   if (!has_values(fit.fitted.status))
     throw CheckFailure("the lobe has no finite fit; other settings of the solver may do");
   return {{fit.matrix, fit.albedo.amplitude, fit.albedo.fresnel}, fit.held_out_loss, fit.spread};
@@ -145,11 +144,9 @@ Shading Table::look_up(const Lobe& lobe) const {
 
 Table generate(const Config& config, const Run& run) {
   const ltc::Config settings = load(config);
-  const int threads = thread_count(run);
   ltc::Table table;
-  do_watched(run, [&](ltc::Progress* progress) {
-    table = ltc::generate_table(settings, threads, progress, nullptr);
-  });
+  do_watched(
+      run, [&](const ltc::RunContext& context) { table = ltc::generate_table(settings, context); });
   table.created = ltc::platform::utc_now_iso8601();
   return Table(std::move(table), true, true);
 }
@@ -162,16 +159,15 @@ Validation validate(const Table& table, const Config& limits, bool quality, cons
   const auto& [judged, contents] = *table.data_;
   const ltc::ValidateSettings settings =
       ltc::load_validate_settings(file_of(limits), limits.overrides, ltc::settings_for(judged));
-  const int threads = thread_count(run);
   Validation result;
-  do_watched(run, [&](ltc::Progress* progress) {
+  do_watched(run, [&](const ltc::RunContext& context) {
     for (const ltc::InvariantResult& check :
-         check_invariants(judged, settings.invariants, threads, progress, contents))
+         check_invariants(judged, settings.invariants, context, contents))
       result.checks.push_back(
           {check.name, check.checked, check.passed, check.value, check.limit, check.message});
     if (!quality)
       return;
-    const ltc::QualityReport report = measure_quality(judged, settings.quality, threads, progress);
+    const ltc::QualityReport report = measure_quality(judged, settings.quality, context);
     for (const ltc::ThresholdCheck& check :
          check_thresholds(report, settings.thresholds, settings.said))
       result.checks.push_back({check.what, check.has_verdict(), check.passed, check.value,

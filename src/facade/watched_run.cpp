@@ -3,7 +3,6 @@
 #include "facade/watched_run.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <chrono>
 #include <future>
@@ -11,11 +10,11 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace ltcfit {
 namespace {
 
-constexpr int most_threads = 1024;
 constexpr std::chrono::milliseconds between_calls{100};
 
 // What the worker says of its stages, for the thread that watches to read.
@@ -43,21 +42,22 @@ class Stages final : public ltc::Progress {
   std::size_t total_ = 0;
 };
 
-}  // namespace
-
 int thread_count(const Run& run) {
-  if (run.threads < 0 || run.threads > most_threads)
+  if (run.threads < 0 || run.threads > ltc::most_threads)
     throw InputError(
         fmt::format("threads is {}; allowed: a whole number in [1, {}], or 0 for one a processor",
-                    run.threads, most_threads));
-  return run.threads == 0 ? omp_get_num_procs() : run.threads;
+                    run.threads, ltc::most_threads));
+  return run.threads == 0 ? ltc::processor_count() : run.threads;
 }
 
-void do_watched(const Run& run, const std::function<void(ltc::Progress*)>& work) {
+}  // namespace
+
+void do_watched(const Run& run, const std::function<void(const ltc::RunContext&)>& work) {
+  const int threads = thread_count(run);
   if (!run.progress)
-    return work(nullptr);
+    return work({threads});
   Stages stages;
-  std::future<void> worker = std::async(std::launch::async, [&] { work(&stages); });
+  std::future<void> worker = std::async(std::launch::async, [&] { work({threads, &stages}); });
   try {
     while (worker.wait_for(between_calls) != std::future_status::ready)
       if (!stages.tell(run.progress))

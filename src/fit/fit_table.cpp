@@ -126,13 +126,13 @@ std::uint64_t entry_seed(std::uint64_t seed, std::size_t representative) {
   return z ^ (z >> 31);
 }
 
-std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings, int threads,
-                                   Progress* progress) {
-  return fit_table(grid, settings, std::vector<bool>(grid.size(), true), threads, progress);
+std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
+                                   const RunContext& run) {
+  return fit_table(grid, settings, std::vector<bool>(grid.size(), true), run);
 }
 
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
-                                   const std::vector<bool>& needed, int threads, Progress* progress,
+                                   const std::vector<bool>& needed, const RunContext& run,
                                    FitWatch* watch, FitJournal* journal) {
   const std::unique_ptr<Solver> solver = make_solver(settings);
   const std::vector<PlannedEntry> whole_plan = plan_by_symmetry(grid);
@@ -148,15 +148,15 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
                            std::vector<FittedEntry>& results) {
     const std::vector<std::size_t> unknown =
         spread_out(recall_known(journal, round, to_fit, results));
-    parallel_for_each<FitWorkspacePointer>(
-        stage, unknown.size(), threads, progress, make_fit_workspace,
-        [&](std::size_t i, FitWorkspacePointer& workspace) {
-          const std::size_t flat = unknown[i];
-          fit_entry(*solver, request(flat), *workspace, trace_of(watch, flat), results[flat]);
-          // A stop ends a fit early, with whatever it has.
-          if (journal && !(progress && progress->stop_requested()))
-            journal->note(round, flat, results[flat]);
-        });
+    parallel_for_each<FitWorkspacePointer>(stage, unknown.size(), run, make_fit_workspace,
+                                           [&](std::size_t i, FitWorkspacePointer& workspace) {
+                                             const std::size_t flat = unknown[i];
+                                             fit_entry(*solver, request(flat), *workspace,
+                                                       trace_of(watch, flat), results[flat]);
+                                             // A stop ends a fit early, with whatever it has.
+                                             if (journal && !run.stop_requested())
+                                               journal->note(round, flat, results[flat]);
+                                           });
     copy_by_symmetry(plan, results);
   };
   const auto plain_request = [&](std::size_t flat) {
@@ -164,7 +164,7 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
                       entry_seed(settings.seed, whole_plan[flat].representative),
                       {},
                       {},
-                      progress};
+                      run.progress};
   };
   if (watch)
     watch->fits.assign(1, {});

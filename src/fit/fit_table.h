@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "fit/settings.h"
 #include "fit/solver.h"
 #include "fit/symmetry_plan.h"
@@ -40,16 +40,16 @@ class FitJournal;  // fit/fit_journal.h
 // share a lobe with another are copied, and turned where need be, from it. With sweeps, every
 // fitted entry then tries its grid neighbours' solutions as starts and keeps the better one; all
 // entries of a sweep see the same state, so that neither order nor the number of threads matters.
-// Throws Interrupted when `progress` (which may be null) asks for a stop. `watch`, where not null,
+// Throws Interrupted when a stop is asked for. `watch`, where not null,
 // gets the steps of its entry. `journal`, where not null, spares the fits that it knows and learns
 // of the others as they are finished.
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
-                                   const std::vector<bool>& needed, int threads, Progress* progress,
+                                   const std::vector<bool>& needed, const RunContext& run,
                                    FitWatch* watch = nullptr, FitJournal* journal = nullptr);
 
 // All of them.
-std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings, int threads,
-                                   Progress* progress);
+std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
+                                   const RunContext& run);
 
 // How many sweeps the settings ask for: none but with the solver that has them.
 int sweep_count(const FitSettings& settings);

@@ -85,8 +85,8 @@ void require_same_grid(const Grid& a, const Grid& b) {
 }
 
 std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
-                                            const CompareSettings& settings, int threads,
-                                            Progress* progress) {
+                                            const CompareSettings& settings,
+                                            const RunContext& run) {
   require_same_grid(a.grid, b.grid);
   const std::vector<std::size_t> first = first_of_same(a, b);
   std::vector<std::size_t> to_judge;
@@ -97,7 +97,7 @@ std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
   std::vector<EntryComparison> entries(first.size());
   const HeldOutJudge prototype(settings.samples, settings.directions, settings.seed);
   parallel_for_each<HeldOutJudge>(
-      "compare", to_judge.size(), threads, progress, [&] { return prototype; },
+      "compare", to_judge.size(), run, [&] { return prototype; },
       [&](std::size_t i, HeldOutJudge& judge) {
         const std::size_t flat = to_judge[i];
         entries[flat] = compare_lobes(a.grid.lobe(a.grid.node(flat)), a.matrix_at(flat),

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "judge/held_out.h"
 #include "table/table.h"
 
@@ -49,7 +49,6 @@ void require_same_grid(const Grid& a, const Grid& b);
 // One comparison a node. Lobes that are the same in both tables to the last bit, as symmetry makes
 // them (theta = 0, alpha = 0), are judged once. Throws InputError when the grids differ.
 std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
-                                            const CompareSettings& settings, int threads,
-                                            Progress* progress);
+                                            const CompareSettings& settings, const RunContext& run);
 
 }  // namespace ltc

@@ -28,14 +28,14 @@ std::optional<std::size_t> worst(const std::vector<double>& errors, Allowed&& al
 }  // namespace
 
 std::vector<double> half_precision_errors(const Table& table, const std::vector<bool>& judged,
-                                          int threads, Progress* progress) {
+                                          const RunContext& run) {
   const auto seen = [&](std::size_t flat, const LobeFrame& frame) -> Eigen::Matrix3d {
     const Eigen::Matrix3d exact = table.stored_at(flat), kept = rounded(exact, Precision::half);
     if (!(kept.determinant() * exact.determinant() > 0))
       return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
     return matrix_from_stored(table.storage, kept, frame.lobe);
   };
-  return inversion_errors(table, judged, "half precision", threads, progress, seen);
+  return inversion_errors(table, judged, "half precision", run, seen);
 }
 
 std::string half_precision_text(const Grid& grid, const std::vector<double>& errors) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "table/table.h"
 
 namespace ltc {
@@ -16,7 +16,7 @@ namespace ltc {
 // infinite. NaN at entries that are not `judged`, whose matrices need no inverse. Throws
 // Interrupted.
 std::vector<double> half_precision_errors(const Table& table, const std::vector<bool>& judged,
-                                          int threads, Progress* progress);
+                                          const RunContext& run);
 
 // The worst entry, and what remains at other values of alpha: the step of 16 bits in a direction is
 // the same for all lobes, so that only the smoothest feel it. In words, of one line; empty where

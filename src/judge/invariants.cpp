@@ -111,12 +111,11 @@ InvariantResult check_shapes(const Table& table) {
 // The whole table under the checks, and which entries they judge.
 class Checks {
  public:
-  Checks(const Table& table, const InvariantLimits& limits, int threads, Progress* progress,
+  Checks(const Table& table, const InvariantLimits& limits, const RunContext& run,
          const TableContents& contents)
       : table_(table),
         limits_(limits),
-        threads_(threads),
-        progress_(progress),
+        run_(run),
         contents_(contents),
         present_(table.grid.size()),
         finite_(table.grid.size()),
@@ -191,7 +190,7 @@ class Checks {
     if (table_.precision == Precision::half)
       return not_checked(name, limits_.half_error, "its values have 16 bits already");
     return judged(name, limits_.half_error, invertible_,
-                  half_precision_errors(table_, invertible_, threads_, progress_));
+                  half_precision_errors(table_, invertible_, run_));
   }
 
   InvariantResult inverse() const {
@@ -200,7 +199,7 @@ class Checks {
                             Precision::single, Precision::single);
     };
     return judged("float inverse", limits_.inverse_error, invertible_,
-                  inversion_errors(table_, invertible_, "inverses", threads_, progress_, seen));
+                  inversion_errors(table_, invertible_, "inverses", run_, seen));
   }
 
   InvariantResult below_horizon() const {
@@ -229,7 +228,7 @@ class Checks {
       return not_checked(name, limits_.albedo_error, not_in_file);
     const AlbedoRule rule(static_cast<std::size_t>(limits_.albedo_points));
     std::vector<double> errors(table_.grid.size(), nan);
-    parallel_for_each("albedo", errors.size(), threads_, progress_, [&](std::size_t flat) {
+    parallel_for_each("albedo", errors.size(), run_, [&](std::size_t flat) {
       if (!present_[flat])
         return;
       const Albedo albedo = integrate_albedo(lobe_at(flat), rule);
@@ -266,7 +265,7 @@ class Checks {
           table_, invertible_,
           {static_cast<std::size_t>(limits_.samples), static_cast<std::size_t>(limits_.directions),
            limits_.neighbour_excess, limits_.neighbour_slack},
-          threads_, progress_);
+          run_);
     return *lobes_;
   }
 
@@ -305,8 +304,7 @@ class Checks {
 
   const Table& table_;
   const InvariantLimits& limits_;
-  const int threads_;
-  Progress* const progress_;
+  const RunContext run_;
   const TableContents contents_;
   std::vector<bool> present_;     // all but skipped entries; failed ones should have values
   std::vector<bool> finite_;      // of these, those whose matrix is finite
@@ -329,12 +327,12 @@ std::string_view why_not_limited(const Table& table) {
 }
 
 std::vector<InvariantResult> check_invariants(const Table& table, const InvariantLimits& limits,
-                                              int threads, Progress* progress,
+                                              const RunContext& run,
                                               const TableContents& contents) {
   const InvariantResult shapes = check_shapes(table);
   if (!shapes.passed)
     return {shapes};
-  Checks checks(table, limits, threads, progress, contents);
+  Checks checks(table, limits, run, contents);
   return {shapes,
           checks.finite(),
           checks.determinant(),

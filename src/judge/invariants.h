@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "export/reader.h"
 #include "table/table.h"
 
@@ -61,9 +61,9 @@ std::string_view why_not_limited(const Table& table);
 
 // All invariants, in the order of docs/validation.md, each judged over the entries that have values
 // (skipped ones are none's business; failed ones are not finite). Never throws for what the table
-// holds; Interrupted if `progress` asks for it.
+// holds; Interrupted if a stop is asked for.
 std::vector<InvariantResult> check_invariants(const Table& table, const InvariantLimits& limits,
-                                              int threads, Progress* progress,
+                                              const RunContext& run,
                                               const TableContents& contents = {});
 
 }  // namespace ltc

@@ -42,14 +42,13 @@ std::array<std::size_t, axes> indices(const NodeIndex& node) {
 class LobeMeter {
  public:
   LobeMeter(const Table& table, const std::vector<bool>& judged, const LobeEffort& effort,
-            int threads, Progress* progress)
+            const RunContext& run)
       : table_(table),
         judged_(judged),
         prototype_(effort.samples, effort.directions, blocks),
         suspicious_(effort.suspicious_jump),
         slack_(effort.slack),
-        threads_(threads),
-        progress_(progress),
+        run_(run),
         layer_entries_(strides(table.grid)[0]),
         below_(layer_entries_, prototype_.size()),
         here_(layer_entries_, prototype_.size()),
@@ -58,17 +57,12 @@ class LobeMeter {
   }
 
   LobeMeasures measure() {
-    if (progress_)
-      progress_->begin_stage("lobes", table_.grid.size());
+    const Stage stage(run_, "lobes", table_.grid.size());
     for (std::size_t alpha = 0; alpha < table_.grid.alpha.size(); ++alpha) {
       std::swap(below_, here_);
       measure_layer(alpha * layer_entries_);
       find_jumps(alpha * layer_entries_);
-      if (progress_)
-        progress_->throw_if_stopped();
     }
-    if (progress_)
-      progress_->end_stage();
     measures_.neighbour_excess =
         blame_jumps(table_.grid, std::move(jumps_), suspicious_,
                     [&](std::size_t a, std::size_t b) { return jump_anew(a, b); });
@@ -77,8 +71,8 @@ class LobeMeter {
 
  private:
   void measure_layer(std::size_t first) {
-    parallel_for_each<LobeQuantiles>(
-        "lobes", layer_entries_, threads_, nullptr, [&] { return prototype_; },
+    parallel_for<LobeQuantiles>(
+        layer_entries_, run_, [&] { return prototype_; },
         [&](std::size_t i, LobeQuantiles& quantiles) {
           const std::size_t flat = first + i;
           if (judged_[flat]) {
@@ -86,8 +80,7 @@ class LobeMeter {
             measures_.loss_excess[flat] =
                 distance / (table_.sw_loss[flat] + loss_noise * here_.spread[i]);
           }
-          if (progress_)
-            progress_->advance();
+          run_.advance();
         });
   }
 
@@ -137,8 +130,7 @@ class LobeMeter {
   const std::vector<bool>& judged_;
   const LobeQuantiles prototype_;
   const double suspicious_, slack_;
-  const int threads_;
-  Progress* const progress_;
+  const RunContext run_;
   const std::size_t layer_entries_;
   Layer below_, here_;
   std::vector<float> jumps_;  // to the entry before, four an entry; NaN where there is none
@@ -148,8 +140,8 @@ class LobeMeter {
 }  // namespace
 
 LobeMeasures measure_lobes(const Table& table, const std::vector<bool>& judged,
-                           const LobeEffort& effort, int threads, Progress* progress) {
-  return LobeMeter(table, judged, effort, threads, progress).measure();
+                           const LobeEffort& effort, const RunContext& run) {
+  return LobeMeter(table, judged, effort, run).measure();
 }
 
 }  // namespace ltc

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "table/table.h"
 
 namespace ltc {
@@ -36,6 +36,6 @@ struct LobeMeasures {
 
 // Over the entries `judged` is true for, whose matrices must be finite. Throws Interrupted.
 LobeMeasures measure_lobes(const Table& table, const std::vector<bool>& judged,
-                           const LobeEffort& effort, int threads, Progress* progress);
+                           const LobeEffort& effort, const RunContext& run);
 
 }  // namespace ltc

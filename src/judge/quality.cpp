@@ -91,11 +91,11 @@ std::vector<std::size_t> nodes_to_judge(const Table& table, const QualitySetting
   return nodes;
 }
 
-std::vector<double> judge_nodes(const Table& table, const QualitySettings& settings, int threads,
-                                Progress* progress) {
+std::vector<double> judge_nodes(const Table& table, const QualitySettings& settings,
+                                const RunContext& run) {
   std::vector<double> losses(table.grid.size(), nan);
   const std::vector<std::size_t> nodes = nodes_to_judge(table, settings);
-  parallel_for_each("judge nodes", nodes.size(), threads, progress, [&](std::size_t i) {
+  parallel_for_each("judge nodes", nodes.size(), run, [&](std::size_t i) {
     const std::size_t flat = nodes[i];
     losses[flat] = relative_loss(node_judge(settings, flat), table.grid.lobe(table.grid.node(flat)),
                                  table.matrix_at(flat));
@@ -104,12 +104,12 @@ std::vector<double> judge_nodes(const Table& table, const QualitySettings& setti
 }
 
 std::vector<QueryQuality> judge_queries(const Table& table, const QualitySettings& settings,
-                                        const std::vector<QueryFloor>& floors, int threads,
-                                        Progress* progress) {
+                                        const std::vector<QueryFloor>& floors,
+                                        const RunContext& run) {
   std::vector<QueryQuality> queries(floors.size());
   const AreaLightJudge prototype = area_light_judge(settings);
   parallel_for_each<AreaLightJudge>(
-      "judge queries", queries.size(), threads, progress, [&] { return prototype; },
+      "judge queries", queries.size(), run, [&] { return prototype; },
       [&](std::size_t i, AreaLightJudge& area_light) {
         queries[i] = judge_query(table, settings, floors[i], i, area_light);
       });
@@ -142,8 +142,8 @@ FitSettings floor_fit_settings() {
   return settings;
 }
 
-std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alpha_min, int threads,
-                                    Progress* progress) {
+std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alpha_min,
+                                    const RunContext& run) {
   check(settings);
   const std::vector<GgxLobe> lobes =
       random_queries(settings.range, settings.queries, settings.seed, alpha_min);
@@ -155,7 +155,7 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alph
   };
   const AreaLightJudge prototype = area_light_judge(settings);
   parallel_for_each<State>(
-      "fit queries", lobes.size(), threads, progress,
+      "fit queries", lobes.size(), run,
       [&] {
         return State{make_fit_workspace(), prototype};
       },
@@ -163,7 +163,7 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alph
         FitRequest request;
         request.lobe = lobes[i];
         request.seed = entry_seed(settings.floor_fit.seed, i);
-        request.progress = progress;
+        request.progress = run.progress;
         state.area_light.set_lobe(lobes[i], i);
         QueryFloor& floor = floors[i];
         floor.lobe = lobes[i];
@@ -175,28 +175,26 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alph
 }
 
 QualityReport measure_quality(const Table& table, const QualitySettings& settings,
-                              std::vector<QueryFloor> floors, int threads, Progress* progress) {
+                              std::vector<QueryFloor> floors, const RunContext& run) {
   check(settings);
   QualityReport report;
   report.settings = settings;
   report.floors = std::move(floors);
-  report.node_losses = judge_nodes(table, settings, threads, progress);
+  report.node_losses = judge_nodes(table, settings, run);
   report.nodes_without_values = static_cast<std::size_t>(std::count_if(
       table.status.begin(), table.status.end(), [](Status s) { return !has_values(s); }));
-  report.queries = judge_queries(table, settings, report.floors, threads, progress);
+  report.queries = judge_queries(table, settings, report.floors, run);
   report.nodes_below_horizon = nodes_below_horizon(table);
   summarize_quality(report);
   return report;
 }
 
-QualityReport measure_quality(const Table& table, const QualitySettings& settings, int threads,
-                              Progress* progress) {
+QualityReport measure_quality(const Table& table, const QualitySettings& settings,
+                              const RunContext& run) {
   check(settings);
   QualitySettings served = settings;
   served.range = query_range_of(table.grid, settings.range);
-  return measure_quality(table, served,
-                         fit_queries(served, table.grid.alpha_min, threads, progress), threads,
-                         progress);
+  return measure_quality(table, served, fit_queries(served, table.grid.alpha_min, run), run);
 }
 
 }  // namespace ltc

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "fit/settings.h"
 #include "judge/area_light.h"
 #include "judge/held_out.h"
@@ -119,18 +119,18 @@ struct QualityReport {
 };
 
 // The queries of the settings, each fitted by itself; `alpha_min` is that of the tables which they
-// are for. The same bits with any number of threads, as below. Throws Interrupted when `progress`
-// (which may be null) asks for a stop, InputError for settings without samples or directions.
-std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alpha_min, int threads,
-                                    Progress* progress);
+// are for. The same bits with any number of threads, as below. Throws Interrupted when a stop
+// is asked for, InputError for settings without samples or directions.
+std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alpha_min,
+                                    const RunContext& run);
 
 // `floors` are those of fit_queries with the same settings, so that several tables can share them.
 QualityReport measure_quality(const Table& table, const QualitySettings& settings,
-                              std::vector<QueryFloor> floors, int threads, Progress* progress);
+                              std::vector<QueryFloor> floors, const RunContext& run);
 
 // With floors of its own, of queries in the part of the settings' range that the table serves
 // (query_range_of); the report's settings say which.
-QualityReport measure_quality(const Table& table, const QualitySettings& settings, int threads,
-                              Progress* progress);
+QualityReport measure_quality(const Table& table, const QualitySettings& settings,
+                              const RunContext& run);
 
 }  // namespace ltc

@@ -59,14 +59,14 @@ std::optional<QueryRange> common_range(const Grid& a, const Grid& b) {
 }
 
 std::vector<QueryComparison> compare_queries(const Table& a, const Table& b,
-                                             const QualitySettings& settings, int threads,
-                                             Progress* progress) {
+                                             const QualitySettings& settings,
+                                             const RunContext& run) {
   const std::vector<GgxLobe> lobes = random_queries(settings.range, settings.queries, settings.seed,
                                                     std::max(a.grid.alpha_min, b.grid.alpha_min));
   std::vector<QueryComparison> queries(lobes.size());
   const AreaLightJudge prototype = area_light_judge(settings);
   parallel_for_each<AreaLightJudge>(
-      "compare between nodes", queries.size(), threads, progress, [&] { return prototype; },
+      "compare between nodes", queries.size(), run, [&] { return prototype; },
       [&](std::size_t i, AreaLightJudge& area_light) {
         queries[i] = compare_query(a, b, lobes[i], i, settings, area_light);
       });

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "judge/compare.h"
 #include "judge/quality.h"
 #include "table/queries.h"
@@ -34,8 +34,8 @@ std::optional<QueryRange> common_range(const Grid& a, const Grid& b);
 // The queries of the settings, by their samples, directions, rectangles and seed: those of
 // measure_quality, one and the same for both tables. The same bits with any number of threads.
 std::vector<QueryComparison> compare_queries(const Table& a, const Table& b,
-                                             const QualitySettings& settings, int threads,
-                                             Progress* progress);
+                                             const QualitySettings& settings,
+                                             const RunContext& run);
 
 // Which of two tables is nearer to GGX by one kind of figure, lobe for lobe.
 struct Verdict {

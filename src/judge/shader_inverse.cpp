@@ -146,12 +146,13 @@ double InversionMeter::error(const LobeFrame& frame, const Eigen::Matrix3d& exac
 }
 
 std::vector<double> inversion_errors(
-    const Table& table, const std::vector<bool>& judged, std::string_view stage, int threads,
-    Progress* progress, const std::function<Eigen::Matrix3d(std::size_t, const LobeFrame&)>& seen) {
+    const Table& table, const std::vector<bool>& judged, std::string_view stage,
+    const RunContext& run,
+    const std::function<Eigen::Matrix3d(std::size_t, const LobeFrame&)>& seen) {
   constexpr std::size_t samples = 512, directions = 8;
   std::vector<double> errors(table.grid.size(), nan);
   parallel_for_each<InversionMeter>(
-      stage, errors.size(), threads, progress, [] { return InversionMeter(samples, directions); },
+      stage, errors.size(), run, [] { return InversionMeter(samples, directions); },
       [&](std::size_t flat, InversionMeter& meter) {
         if (!judged[flat])
           return;

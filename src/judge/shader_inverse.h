@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "fit/lobe_frame.h"
 #include "judge/lobe_quantiles.h"
 #include "table/table.h"
@@ -57,7 +57,8 @@ class InversionMeter {
 // That error at every entry of a table that is `judged`, NaN at the others; `seen` makes the matrix
 // that is seen there. The same bits for any number of threads. Throws Interrupted.
 std::vector<double> inversion_errors(
-    const Table& table, const std::vector<bool>& judged, std::string_view stage, int threads,
-    Progress* progress, const std::function<Eigen::Matrix3d(std::size_t, const LobeFrame&)>& seen);
+    const Table& table, const std::vector<bool>& judged, std::string_view stage,
+    const RunContext& run,
+    const std::function<Eigen::Matrix3d(std::size_t, const LobeFrame&)>& seen);
 
 }  // namespace ltc

@@ -66,15 +66,14 @@ std::vector<bool> entries_behind(const Grid& grid, const std::vector<bool>& need
 }
 
 LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, std::size_t flat,
-                        int threads, Progress* progress) {
+                        const RunContext& run) {
   if (!needed[flat])
     throw InputError("the entry is not among those that the table needs");
   const Grid& grid = config.grid;
   const std::size_t representative = plan_by_symmetry(grid, needed)[flat].representative;
   FitWatch watch{representative, {}};
-  const std::vector<FittedEntry> entries =
-      fit_table(grid, config.fit, entries_behind(grid, needed, flat, sweep_count(config.fit)),
-                threads, progress, &watch);
+  const std::vector<FittedEntry> entries = fit_table(
+      grid, config.fit, entries_behind(grid, needed, flat, sweep_count(config.fit)), run, &watch);
   LobeFit fit;
   fit.lobe = grid.lobe(grid.node(flat));
   fit.fits = std::move(watch.fits);
@@ -86,11 +85,11 @@ LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, s
 }
 
 LobeFit fit_lobe(const Config& config, const GgxLobe& lobe, std::uint64_t seed,
-                 const std::optional<Eigen::Matrix3d>& start, const Progress* progress) {
+                 const std::optional<Eigen::Matrix3d>& start, const RunContext& run) {
   FitRequest request;
   request.lobe = lobe;
   request.seed = seed;
-  request.progress = progress;
+  request.progress = run.progress;
   if (start)
     request.starts.push_back(*start);
   LobeFit fit;
@@ -99,8 +98,7 @@ LobeFit fit_lobe(const Config& config, const GgxLobe& lobe, std::uint64_t seed,
   fit.start_abandoned = fit_entry(*make_solver(config.fit), request, *make_fit_workspace(),
                                   &fit.fits.front().steps, fit.fitted)
                             .start_abandoned;
-  if (progress)
-    progress->throw_if_stopped();
+  run.throw_if_stopped();
   finish(config, fit);
   return fit;
 }

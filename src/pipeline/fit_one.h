@@ -10,7 +10,7 @@
 
 #include "brdf/albedo.h"
 #include "config/config.h"
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "fit/fit_table.h"
 #include "fit/gradient_check.h"
 #include "pipeline/post_process.h"
@@ -42,11 +42,11 @@ std::vector<bool> entries_behind(const Grid& grid, const std::vector<bool>& need
 // stored, loss, steps, status, amplitude and Fresnel. `fits` are those of its representative.
 // Throws InputError for an entry that is not needed, else as generate_table.
 LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, std::size_t flat,
-                        int threads, Progress* progress);
+                        const RunContext& run);
 
 // A lobe by itself, from `start` (M) or else from the solver's own starting points.
 LobeFit fit_lobe(const Config& config, const GgxLobe& lobe, std::uint64_t seed,
-                 const std::optional<Eigen::Matrix3d>& start, const Progress* progress);
+                 const std::optional<Eigen::Matrix3d>& start, const RunContext& run = {});
 
 // M of a starting point of the solvers (starting_points.h); `seed` is that of a random one.
 Eigen::Matrix3d starting_matrix(StartKind kind, const GgxLobe& lobe, std::uint64_t seed);

@@ -29,8 +29,8 @@ std::size_t representative_count(const std::vector<PlannedEntry>& plan) {
   return count;
 }
 
-void align_all(std::vector<FittedEntry>& entries, int threads, Progress* progress) {
-  parallel_for_each("align", entries.size(), threads, progress, [&](std::size_t i) {
+void align_all(std::vector<FittedEntry>& entries, const RunContext& run) {
+  parallel_for_each("align", entries.size(), run, [&](std::size_t i) {
     if (has_values(entries[i].status))
       entries[i].matrix = align(entries[i].matrix);
   });
@@ -94,7 +94,7 @@ std::vector<QueryRange> ranges_served(const Config& config, const std::vector<Qu
 
 // Moves the nodes' matrices for the sake of what lies between them, and states their losses anew.
 RefineReport refine_nodes(const Config& config, const RefineContext& context,
-                          const std::vector<QueryRange>& ranges, int threads, Progress* progress,
+                          const std::vector<QueryRange>& ranges, const RunContext& run,
                           Table& table) {
   const std::size_t count = table.grid.size();
   std::vector<Eigen::Matrix3d> stored(count);
@@ -107,8 +107,8 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
     present[flat] = made || kept;
     movable[flat] = made && !(config.refine.keep_smoothest && alpha <= table.grid.alpha_min);
   }
-  const RefineReport report = refine(table.grid, table.storage, present, movable, ranges,
-                                     config.refine, threads, progress, stored);
+  const RefineReport report =
+      refine(table.grid, table.storage, present, movable, ranges, config.refine, run, stored);
   if (!report.kept)
     return report;
   for (std::size_t flat = 0; flat < count; ++flat)
@@ -116,19 +116,18 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
       table.set_stored(flat, normalise(stored[flat]));
   for (std::size_t flat = 0; flat < count; ++flat)
     stored[flat] = table.stored_at(flat);
-  const std::vector<double> losses =
-      node_losses(table.grid, table.storage, movable, stored, threads, progress);
+  const std::vector<double> losses = node_losses(table.grid, table.storage, movable, stored, run);
   for (std::size_t flat = 0; flat < count; ++flat)
     if (movable[flat])
       table.sw_loss[flat] = static_cast<float>(losses[flat]);
   return report;
 }
 
-void integrate_albedos(const Grid& grid, const std::vector<bool>& needed, int threads,
-                       Progress* progress, Table& table) {
+void integrate_albedos(const Grid& grid, const std::vector<bool>& needed, const RunContext& run,
+                       Table& table) {
   const AlbedoRule rule;
   const std::vector<PlannedEntry> plan = plan_by_symmetry(grid, needed);
-  parallel_for_each("albedo", plan.size(), threads, progress, [&](std::size_t flat) {
+  parallel_for_each("albedo", plan.size(), run, [&](std::size_t flat) {
     if (plan[flat].representative != flat)
       return;
     const Albedo albedo = integrate_albedo(grid.lobe(grid.node(flat)), rule);
@@ -166,15 +165,12 @@ void require_memory(const Config& config, const std::vector<bool>& needed,
         gigabytes(memory.table)));
 }
 
-Table generate_table(const Config& config, int threads, Progress* progress,
-                     GenerateReport* report) {
-  return generate_table(config, std::vector<bool>(config.grid.size(), true), threads, progress,
-                        report);
+Table generate_table(const Config& config, const RunContext& run, GenerateReport* report) {
+  return generate_table(config, std::vector<bool>(config.grid.size(), true), run, report);
 }
 
-Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
-                     Progress* progress, GenerateReport* report, FitJournal* journal,
-                     const RefineContext& context) {
+Table generate_table(const Config& config, const std::vector<bool>& needed, const RunContext& run,
+                     GenerateReport* report, FitJournal* journal, const RefineContext& context) {
   require_memory(config, needed, context);
   GenerateReport unread;
   GenerateReport& result = report ? *report : unread;
@@ -194,9 +190,9 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
   result.fits = representative_count(plan_by_symmetry(config.grid, needed));
   result.fits_of_whole_grid = representative_count(plan_by_symmetry(config.grid));
   std::vector<FittedEntry> entries =
-      fit_table(config.grid, config.fit, needed, threads, progress, nullptr, journal);
+      fit_table(config.grid, config.fit, needed, run, nullptr, journal);
   finish_stage("fit");
-  align_all(entries, threads, progress);
+  align_all(entries, run);
   finish_stage("align");
   post_process_all(config.grid, entries, table, result);
   finish_stage("post-process");
@@ -205,11 +201,11 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, int 
     const std::vector<QueryRange> ranges = ranges_served(config, context.asked);
     if (context.asked.empty() && ranges.front() != config.refine.range)
       result.range_served = ranges.front();
-    result.refine = refine_nodes(config, context, ranges, threads, progress, table);
+    result.refine = refine_nodes(config, context, ranges, run, table);
     table.refined = result.refine->kept;
     finish_stage("refine");
   }
-  integrate_albedos(config.grid, needed, threads, progress, table);
+  integrate_albedos(config.grid, needed, run, table);
   finish_stage("albedo");
   return table;
 }

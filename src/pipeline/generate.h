@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "config/config.h"
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "refine/refine.h"
 #include "table/table.h"
 
@@ -41,14 +41,14 @@ struct RefineContext {
 void require_memory(const Config& config, const std::vector<bool>& needed,
                     const RefineContext& context = {});
 
-// Makes the entries of `config`'s table that are `needed` (one flag a node) with `threads` >= 1
-// OpenMP threads; the same bits for any number. Throws InputError for a config that cannot be met
-// and as require_memory, Interrupted when progress asked for a stop. `journal` as for fit_table.
-Table generate_table(const Config& config, const std::vector<bool>& needed, int threads,
-                     Progress* progress, GenerateReport* report, FitJournal* journal = nullptr,
+// Makes the entries of `config`'s table that are `needed` (one flag a node). Throws InputError for
+// a config that cannot be met and as require_memory, Interrupted when a stop is asked for.
+// `journal` as for fit_table.
+Table generate_table(const Config& config, const std::vector<bool>& needed, const RunContext& run,
+                     GenerateReport* report, FitJournal* journal = nullptr,
                      const RefineContext& context = {});
 
 // The whole table.
-Table generate_table(const Config& config, int threads, Progress* progress, GenerateReport* report);
+Table generate_table(const Config& config, const RunContext& run, GenerateReport* report = nullptr);
 
 }  // namespace ltc

@@ -29,21 +29,19 @@ void require_values(const Table& table, std::size_t flat) {
 }
 
 // Everything that follows from the lobe and the table's matrix.
-void judge(const Table& table, const Progress* progress, StoredLobe& stored) {
+void judge(const Table& table, const RunContext& run, StoredLobe& stored) {
   Config config;
   config.grid.alpha_min = table.grid.alpha_min;
   config.storage = table.storage;
   config.fit = floor_fit_settings();
-  stored.floor =
-      fit_lobe(config, stored.lobe, entry_seed(config.fit.seed, 0), std::nullopt, progress);
+  stored.floor = fit_lobe(config, stored.lobe, entry_seed(config.fit.seed, 0), std::nullopt, run);
   HeldOutJudge judge;
   judge.set_lobe(stored.lobe);
   stored.held_out_loss = judge.loss(stored.matrix);
 }
 
-double relative_loss_of_node(const Table& table, std::size_t flat, const Progress* progress) {
-  if (progress)
-    progress->throw_if_stopped();
+double relative_loss_of_node(const Table& table, std::size_t flat, const RunContext& run) {
+  run.throw_if_stopped();
   HeldOutJudge judge;
   judge.set_lobe(table.grid.lobe(table.grid.node(flat)));
   return judge.loss(table.matrix_at(flat)) / judge.spread();
@@ -51,7 +49,7 @@ double relative_loss_of_node(const Table& table, std::size_t flat, const Progres
 
 }  // namespace
 
-StoredLobe stored_entry(const Table& table, std::size_t flat, const Progress* progress) {
+StoredLobe stored_entry(const Table& table, std::size_t flat, const RunContext& run) {
   require_values(table, flat);
   StoredLobe stored;
   stored.lobe = table.grid.lobe(table.grid.node(flat));
@@ -60,11 +58,11 @@ StoredLobe stored_entry(const Table& table, std::size_t flat, const Progress* pr
   stored.matrix = table.matrix_at(flat);
   stored.albedo = {table.amplitude[flat], table.fresnel[flat]};
   stored.stated_loss = table.sw_loss[flat];
-  judge(table, progress, stored);
+  judge(table, run, stored);
   return stored;
 }
 
-StoredLobe stored_query(const Table& table, const GgxLobe& lobe, const Progress* progress) {
+StoredLobe stored_query(const Table& table, const GgxLobe& lobe, const RunContext& run) {
   const Reduction reduction(table.grid);
   const Interpolation taken = interpolation(table.grid, reduction.fold(lobe).lobe);
   StoredLobe stored;
@@ -77,14 +75,14 @@ StoredLobe stored_query(const Table& table, const GgxLobe& lobe, const Progress*
                    [](const TakenNode& a, const TakenNode& b) { return a.weight > b.weight; });
   for (TakenNode& node : stored.nodes) {
     require_values(table, node.flat);
-    node.relative_loss = relative_loss_of_node(table, node.flat, progress);
+    node.relative_loss = relative_loss_of_node(table, node.flat, run);
   }
   const LookUp found = look_up(table, lobe);
   stored.stored = Eigen::Matrix3d::Constant(nan);
   stored.matrix = found.matrix;
   stored.albedo = {found.amplitude, found.fresnel};
   stored.stated_loss = nan;
-  judge(table, progress, stored);
+  judge(table, run, stored);
   return stored;
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "pipeline/fit_one.h"
 #include "table/table.h"
 
@@ -37,10 +37,10 @@ struct StoredLobe {
 
 // Entry `flat` of the table as it is stored. Throws InputError, naming the entry, where it has no
 // values; Interrupted.
-StoredLobe stored_entry(const Table& table, std::size_t flat, const Progress* progress);
+StoredLobe stored_entry(const Table& table, std::size_t flat, const RunContext& run);
 
 // What a renderer gets for the lobe: the look-up of table/lookup.h. Throws InputError, naming the
 // first entry that the look-up needs and that has no values; Interrupted.
-StoredLobe stored_query(const Table& table, const GgxLobe& lobe, const Progress* progress);
+StoredLobe stored_query(const Table& table, const GgxLobe& lobe, const RunContext& run);
 
 }  // namespace ltc

@@ -60,12 +60,11 @@ bool complete(const Interpolation& corners, const std::vector<bool>& has_values)
 // tells the others, and within a cell as they came.
 std::vector<std::size_t> ordered_by_cell(const Grid& grid, const std::vector<bool>& has_values,
                                          const std::vector<GgxLobe>& lobes,
-                                         const Reduction& reduction, const Progress* progress) {
+                                         const Reduction& reduction, const RunContext& run) {
   const std::size_t left_out = grid.size();
   std::vector<std::size_t> first_node(lobes.size()), begin(grid.size() + 1);
   for (std::size_t i = 0; i < lobes.size(); ++i) {
-    if (progress)
-      progress->throw_if_stopped();
+    run.throw_if_stopped();
     const Interpolation corners = interpolation(grid, reduction.fold(lobes[i]).lobe);
     const bool asked = reduction.covers(lobes[i]) && complete(corners, has_values);
     first_node[i] = asked ? corners.nodes[0] : left_out;
@@ -84,20 +83,18 @@ std::vector<std::size_t> ordered_by_cell(const Grid& grid, const std::vector<boo
 
 QuerySystem::QuerySystem(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
                          const std::vector<GgxLobe>& lobes, const std::vector<double>& weights,
-                         const QuerySampling& sampling, double shift, const Progress* progress)
+                         const QuerySampling& sampling, double shift, const RunContext& run)
     : storage_(storage), node_count_(grid.size()) {
   make_sets(sampling, shift);
   const Reduction reduction(grid);
-  const std::vector<std::size_t> order =
-      ordered_by_cell(grid, has_values, lobes, reduction, progress);
+  const std::vector<std::size_t> order = ordered_by_cell(grid, has_values, lobes, reduction, run);
   corners_of_node_.resize(node_count_);
   queries_.reserve(order.size());
   for (const std::size_t i : order) {
     const GgxLobe folded = reduction.fold(lobes[i]).lobe;
     const Interpolation corners = interpolation(grid, folded);
     if (cells_.empty() || cells_.back().nodes != corners.nodes) {
-      if (progress)
-        progress->throw_if_stopped();
+      run.throw_if_stopped();
       for (std::size_t corner = 0; corner < 16; ++corner)
         corners_of_node_[corners.nodes[corner]].push_back({cells_.size(), corner});
       cells_.push_back({corners.nodes, queries_.size(), queries_.size()});
@@ -161,40 +158,31 @@ void QuerySystem::evaluate_query(const Query& query, const Eigen::Matrix3d& inte
   model.curvature = 0.5 * (curvature + curvature.transpose());
 }
 
-double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, int threads,
-                             Progress* progress) {
+double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, const RunContext& run) {
   // The loss at the model in use tells each query's smoothing.
-#pragma omp parallel num_threads(threads)
-  {
-    Buffers buffers;
-#pragma omp for schedule(dynamic)
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      const Cell& cell = cells_[c];
-      if (progress && progress->stop_requested())
-        continue;
-      for (std::size_t q = cell.first; q < cell.last; ++q) {
-        Eigen::Matrix3d interpolated = Eigen::Matrix3d::Zero();
-        for (std::size_t corner = 0; corner < 16; ++corner)
-          if (queries_[q].weights[corner] != 0)
-            interpolated += queries_[q].weights[corner] * stored[cell.nodes[corner]];
-        evaluated_[q].loss = models_[q].loss;
-        evaluate_query(queries_[q], interpolated, targets_[q], buffers, evaluated_[q]);
-      }
-      if (progress)
-        progress->advance(cell.last - cell.first);
-    }
-  }
-  if (progress)
-    progress->throw_if_stopped();
+  parallel_for<Buffers>(
+      cells_.size(), run, [] { return Buffers(); },
+      [&](std::size_t c, Buffers& buffers) {
+        const Cell& cell = cells_[c];
+        for (std::size_t q = cell.first; q < cell.last; ++q) {
+          Eigen::Matrix3d interpolated = Eigen::Matrix3d::Zero();
+          for (std::size_t corner = 0; corner < 16; ++corner)
+            if (queries_[q].weights[corner] != 0)
+              interpolated += queries_[q].weights[corner] * stored[cell.nodes[corner]];
+          evaluated_[q].loss = models_[q].loss;
+          evaluate_query(queries_[q], interpolated, targets_[q], buffers, evaluated_[q]);
+        }
+        run.advance(cell.last - cell.first);
+      });
   return std::accumulate(evaluated_.begin(), evaluated_.end(), 0.0,
                          [](double sum, const Model& model) { return sum + model.loss; });
 }
 
 template <typename Value, typename Part>
-void QuerySystem::gather(std::vector<Value>& result, int threads, const Progress* progress,
-                         const Value& zero, Part&& part) const {
+void QuerySystem::gather(std::vector<Value>& result, const RunContext& run, const Value& zero,
+                         Part&& part) const {
   result.assign(node_count_, zero);
-  parallel_for(node_count_, threads, progress, [&](std::size_t node) {
+  parallel_for(node_count_, run, [&](std::size_t node) {
     for (const Corner& at : corners_of_node_[node]) {
       Value of_cell = zero;
       for (std::size_t q = cells_[at.cell].first; q < cells_[at.cell].last; ++q)
@@ -204,16 +192,16 @@ void QuerySystem::gather(std::vector<Value>& result, int threads, const Progress
   });
 }
 
-void QuerySystem::gradient(NodeVectors& result, int threads, const Progress* progress) const {
-  gather<Vector9>(
-      result, threads, progress, Vector9::Zero(),
-      [&](std::size_t q, double weight, Vector9& sum) { sum += weight * models_[q].gradient; });
+void QuerySystem::gradient(NodeVectors& result, const RunContext& run) const {
+  gather<Vector9>(result, run, Vector9::Zero(), [&](std::size_t q, double weight, Vector9& sum) {
+    sum += weight * models_[q].gradient;
+  });
 }
 
-void QuerySystem::multiply(const NodeVectors& step, NodeVectors& result, int threads,
-                           const Progress* progress) const {
+void QuerySystem::multiply(const NodeVectors& step, NodeVectors& result,
+                           const RunContext& run) const {
   NodeVectors pulled(queries_.size());
-  parallel_for(cells_.size(), threads, progress, [&](std::size_t c) {
+  parallel_for(cells_.size(), run, [&](std::size_t c) {
     for (std::size_t q = cells_[c].first; q < cells_[c].last; ++q) {
       Vector9 interpolated = Vector9::Zero();
       for (std::size_t corner = 0; corner < 16; ++corner)
@@ -224,16 +212,14 @@ void QuerySystem::multiply(const NodeVectors& step, NodeVectors& result, int thr
       pulled[q] = product;
     }
   });
-  gather<Vector9>(result, threads, progress, Vector9::Zero(),
+  gather<Vector9>(result, run, Vector9::Zero(),
                   [&](std::size_t q, double weight, Vector9& sum) { sum += weight * pulled[q]; });
 }
 
-void QuerySystem::diagonal_blocks(std::vector<Matrix9>& blocks, int threads,
-                                  const Progress* progress) const {
-  gather<Matrix9>(blocks, threads, progress, Matrix9::Zero(),
-                  [&](std::size_t q, double weight, Matrix9& sum) {
-                    sum += weight * weight * models_[q].curvature;
-                  });
+void QuerySystem::diagonal_blocks(std::vector<Matrix9>& blocks, const RunContext& run) const {
+  gather<Matrix9>(blocks, run, Matrix9::Zero(), [&](std::size_t q, double weight, Matrix9& sum) {
+    sum += weight * weight * models_[q].curvature;
+  });
 }
 
 std::size_t QuerySystem::memory_bytes(const QuerySampling& sampling, std::size_t queries,

@@ -16,7 +16,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "fit/quantile_model.h"
 #include "refine/node_space.h"
 #include "refine/refine_settings.h"
@@ -32,7 +32,7 @@ class QuerySystem {
   // share no samples.
   QuerySystem(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
               const std::vector<GgxLobe>& lobes, const std::vector<double>& weights,
-              const QuerySampling& sampling, double shift, const Progress* progress = nullptr);
+              const QuerySampling& sampling, double shift, const RunContext& run = {});
 
   // What so many queries in so many cells need, about, and while they are multiplied with.
   static std::size_t memory_bytes(const QuerySampling& sampling, std::size_t queries,
@@ -41,17 +41,15 @@ class QuerySystem {
   std::size_t size() const { return queries_.size(); }
 
   // F at `stored`; also makes the model there, which adopt() takes into use. Infinite where a
-  // matrix is not finite. Throws Interrupted when `progress` asks for a stop.
-  double evaluate(const std::vector<Eigen::Matrix3d>& stored, int threads, Progress* progress);
+  // matrix is not finite. Throws Interrupted when a stop is asked for.
+  double evaluate(const std::vector<Eigen::Matrix3d>& stored, const RunContext& run);
   void adopt() { models_.swap(evaluated_); }
 
   // Throw Interrupted too. Of the model in use: gradient, curvature times a step, the curvature's
   // blocks on the diagonal. Sums have a fixed order: the same bits for any number of threads.
-  void gradient(NodeVectors& result, int threads, const Progress* progress = nullptr) const;
-  void multiply(const NodeVectors& step, NodeVectors& result, int threads,
-                const Progress* progress = nullptr) const;
-  void diagonal_blocks(std::vector<Matrix9>& blocks, int threads,
-                       const Progress* progress = nullptr) const;
+  void gradient(NodeVectors& result, const RunContext& run = {}) const;
+  void multiply(const NodeVectors& step, NodeVectors& result, const RunContext& run = {}) const;
+  void diagonal_blocks(std::vector<Matrix9>& blocks, const RunContext& run = {}) const;
 
  private:
   struct Query {
@@ -90,7 +88,7 @@ class QuerySystem {
                       Buffers& buffers, Model& model) const;
   // Sums at every node what `part` adds for each query of its cells.
   template <typename Value, typename Part>
-  void gather(std::vector<Value>& result, int threads, const Progress* progress, const Value& zero,
+  void gather(std::vector<Value>& result, const RunContext& run, const Value& zero,
               Part&& part) const;
 
   struct Corner {

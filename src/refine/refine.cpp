@@ -50,23 +50,6 @@ std::size_t evaluations(const RefineSettings& settings) {
   return static_cast<std::size_t>(settings.steps) + 1;
 }
 
-class Stage {
- public:
-  Stage(Progress* progress, std::size_t total) : progress_(progress) {
-    if (progress_)
-      progress_->begin_stage("refine", total);
-  }
-  ~Stage() {
-    if (progress_)
-      progress_->end_stage();
-  }
-  Stage(const Stage&) = delete;
-  Stage& operator=(const Stage&) = delete;
-
- private:
-  Progress* const progress_;
-};
-
 }  // namespace
 
 std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& has_values,
@@ -85,40 +68,40 @@ std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& h
 
 RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
                     const std::vector<bool>& movable, const std::vector<QueryRange>& asked,
-                    const RefineSettings& settings, int threads, Progress* progress,
+                    const RefineSettings& settings, const RunContext& run,
                     std::vector<Eigen::Matrix3d>& stored) {
   const WeightedLobes refined_on = queries_to_refine_on(grid, has_values, asked, settings);
   const WeightedLobes held_out = queries_held_out(grid, asked, settings, refined_on.lobes.size());
-  const Stage stage(progress,
+  const Stage stage(run, "refine",
                     evaluations(settings) * (refined_on.lobes.size() + held_out.lobes.size()));
   QuerySystem queries(grid, storage, has_values, refined_on.lobes, refined_on.weights,
-                      settings.sampling, refined_shift, progress);
+                      settings.sampling, refined_shift, run);
   QuerySystem judge(grid, storage, has_values, held_out.lobes, held_out.weights, settings.sampling,
-                    held_out_shift, progress);
+                    held_out_shift, run);
   RefineReport report;
   report.queries = queries.size();
   if (judge.size() == 0)
     return report;
-  if (progress)  // what is left out needs no work
-    progress->advance(evaluations(settings) * (refined_on.lobes.size() - queries.size() +
-                                               held_out.lobes.size() - judge.size()));
+  // What is left out needs no work.
+  run.advance(evaluations(settings) *
+              (refined_on.lobes.size() - queries.size() + held_out.lobes.size() - judge.size()));
   const NodeSpace space(grid, movable);
   std::vector<Eigen::Matrix3d> current = stored;
   space.symmetrise(current);
-  double objective = queries.evaluate(current, threads, progress);
+  double objective = queries.evaluate(current, run);
   queries.adopt();
   // Relative to the weight of the queries that could be judged.
   const double judged =
       static_cast<double>(judge.size()) / static_cast<double>(held_out.lobes.size());
-  report.loss_before = report.loss_after = judge.evaluate(stored, threads, progress) / judged;
+  report.loss_before = report.loss_after = judge.evaluate(stored, run) / judged;
   const std::vector<SingularityBound> bounds = bounds_at(grid, storage, current);
   double damping = settings.damping;
   while (report.steps < settings.steps) {
     ++report.steps;
     const NodeVectors step =
-        refinement_step(queries, space, current, damping, settings.overshoot, threads, progress);
+        refinement_step(queries, space, current, damping, settings.overshoot, run);
     const std::vector<Eigen::Matrix3d> trial = stepped(current, step, bounds);
-    const double next = queries.evaluate(trial, threads, progress);
+    const double next = queries.evaluate(trial, run);
     if (!(next < objective)) {
       damping *= damping_rise;
       continue;
@@ -128,7 +111,7 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
     queries.adopt();
     current = trial;
     damping = std::max(damping * damping_fall, least_damping);
-    const double loss = judge.evaluate(current, threads, progress) / judged;
+    const double loss = judge.evaluate(current, run) / judged;
     if (loss < report.loss_after) {
       report.loss_after = loss;
       report.kept = true;
@@ -142,8 +125,7 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
 
 std::vector<double> node_losses(const Grid& grid, Storage storage,
                                 const std::vector<bool>& has_values,
-                                const std::vector<Eigen::Matrix3d>& stored, int threads,
-                                Progress* progress) {
+                                const std::vector<Eigen::Matrix3d>& stored, const RunContext& run) {
   const CosineSet cosines = make_cosine_set(2048);
   const TargetLattice lattice = make_target_lattice(4096, 0.3);
   const std::vector<Eigen::Vector3f> directions = in_float(fibonacci_directions(32));
@@ -156,7 +138,7 @@ std::vector<double> node_losses(const Grid& grid, Storage storage,
   };
   std::vector<double> losses(grid.size(), std::numeric_limits<double>::quiet_NaN());
   parallel_for_each<State>(
-      "node losses", grid.size(), threads, progress, [] { return State(); },
+      "node losses", grid.size(), run, [] { return State(); },
       [&](std::size_t flat, State& state) {
         if (!has_values[flat])
           return;

@@ -20,7 +20,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "refine/refine_settings.h"
 #include "table/grid.h"
 #include "table/storage.h"
@@ -38,10 +38,10 @@ struct RefineReport {
 // Refines `stored`, one S a node of `grid` with third column of unit length and positive
 // determinant. Queries are drawn from `asked` in turn, at least one range; those beyond the axes
 // and those that need a node without values are left out. Nodes that are not `movable` stay as they
-// are. Throws Interrupted when `progress` asks for a stop. The same bits for any number of threads.
+// are. Throws Interrupted when a stop is asked for. The same bits for any number of threads.
 RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
                     const std::vector<bool>& movable, const std::vector<QueryRange>& asked,
-                    const RefineSettings& settings, int threads, Progress* progress,
+                    const RefineSettings& settings, const RunContext& run,
                     std::vector<Eigen::Matrix3d>& stored);
 
 // What refine() takes of memory, about.
@@ -53,7 +53,6 @@ std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& h
 // Throws Interrupted.
 std::vector<double> node_losses(const Grid& grid, Storage storage,
                                 const std::vector<bool>& has_values,
-                                const std::vector<Eigen::Matrix3d>& stored, int threads,
-                                Progress* progress);
+                                const std::vector<Eigen::Matrix3d>& stored, const RunContext& run);
 
 }  // namespace ltc

@@ -27,17 +27,16 @@ double dot(const NodeVectors& a, const NodeVectors& b) {
 class StepSystem {
  public:
   StepSystem(const QuerySystem& queries, const NodeSpace& space,
-             const std::vector<Eigen::Matrix3d>& stored, double damping, int threads,
-             const Progress* progress)
-      : queries_(queries), space_(space), stored_(stored), threads_(threads), progress_(progress) {
+             const std::vector<Eigen::Matrix3d>& stored, double damping, const RunContext& run)
+      : queries_(queries), space_(space), stored_(stored), run_(run) {
     std::vector<Matrix9> blocks;
-    queries.diagonal_blocks(blocks, threads, progress);
+    queries.diagonal_blocks(blocks, run);
     Vector9 mean = Vector9::Zero();
     for (const Matrix9& block : blocks)
       mean += block.diagonal() / static_cast<double>(blocks.size());
     damped_diagonal_.resize(blocks.size());
     inverse_blocks_.resize(blocks.size());
-    parallel_for(blocks.size(), threads, progress, [&](std::size_t node) {
+    parallel_for(blocks.size(), run, [&](std::size_t node) {
       damped_diagonal_[node] = damping * (blocks[node].diagonal() + least_curvature * mean);
       Matrix9 block = blocks[node];
       block.diagonal() += damped_diagonal_[node];
@@ -74,7 +73,7 @@ class StepSystem {
 
  private:
   void multiply(const NodeVectors& step, NodeVectors& product) const {
-    queries_.multiply(step, product, threads_, progress_);
+    queries_.multiply(step, product, run_);
     for (std::size_t node = 0; node < step.size(); ++node)
       product[node] += damped_diagonal_[node].cwiseProduct(step[node]);
     space_.project(stored_, product);
@@ -90,8 +89,7 @@ class StepSystem {
   const QuerySystem& queries_;
   const NodeSpace& space_;
   const std::vector<Eigen::Matrix3d>& stored_;
-  int threads_;
-  const Progress* progress_;
+  const RunContext run_;
   NodeVectors damped_diagonal_;
   std::vector<Matrix9> inverse_blocks_;
 };
@@ -100,12 +98,12 @@ class StepSystem {
 
 NodeVectors refinement_step(const QuerySystem& queries, const NodeSpace& space,
                             const std::vector<Eigen::Matrix3d>& stored, double damping,
-                            double overshoot, int threads, const Progress* progress) {
+                            double overshoot, const RunContext& run) {
   NodeVectors downhill;
-  queries.gradient(downhill, threads, progress);
+  queries.gradient(downhill, run);
   for (Vector9& value : downhill)
     value = -value;
-  NodeVectors step = StepSystem(queries, space, stored, damping, threads, progress).solve(downhill);
+  NodeVectors step = StepSystem(queries, space, stored, damping, run).solve(downhill);
   for (Vector9& value : step)
     value *= overshoot;
   return step;

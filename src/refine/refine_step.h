@@ -12,10 +12,10 @@
 namespace ltc {
 
 // Solves Pi (H + damping D) Pi s = -Pi grad F of the model that `queries` has in use (refine.h) and
-// returns s times `overshoot`. Throws Interrupted when `progress` asks for a stop. The same bits
-// for any number of threads.
+// returns s times `overshoot`. Throws Interrupted when a stop is asked for. The same bits for any
+// number of threads.
 NodeVectors refinement_step(const QuerySystem& queries, const NodeSpace& space,
                             const std::vector<Eigen::Matrix3d>& stored, double damping,
-                            double overshoot, int threads, const Progress* progress = nullptr);
+                            double overshoot, const RunContext& run = {});
 
 }  // namespace ltc

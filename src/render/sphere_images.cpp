@@ -111,14 +111,14 @@ class PixelRow {
 }  // namespace
 
 SphereImages render_sphere(std::span<const Table* const> tables, const SphereMaterial& material,
-                           const SphereSettings& settings, std::string_view stage, int threads,
-                           Progress* progress) {
+                           const SphereSettings& settings, std::string_view stage,
+                           const RunContext& run) {
   check(material, settings);
   const picture::Field nothing = blank(settings.size);
   SphereImages images{nothing, nothing, nothing, {tables.size(), nothing}};
   const ReferenceIntegrator integrator((settings.samples + samples_quantum - 1) / samples_quantum);
   parallel_for_each<PixelRow>(
-      stage, settings.size, threads, progress,
+      stage, settings.size, run,
       [&] { return PixelRow(tables, material, settings, integrator, images); },
       [](std::size_t row, PixelRow& pixels) { pixels.render(row); });
   return images;

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "picture/canvas.h"
 #include "render/shading.h"
 
@@ -33,8 +33,8 @@ struct SphereImages {
 // The same bits with any number of threads. Throws InputError for a material out of range
 // (roughnesses in [1e-4, 1], F0 in [0, 1]), a size of 0, or no samples.
 SphereImages render_sphere(std::span<const Table* const> tables, const SphereMaterial& material,
-                           const SphereSettings& settings, std::string_view stage, int threads,
-                           Progress* progress);
+                           const SphereSettings& settings, std::string_view stage,
+                           const RunContext& run);
 
 // LTC minus GGX, pixel by pixel.
 picture::Field difference(const SphereImages& images, std::size_t table);

@@ -258,16 +258,16 @@ bool is_sound(const Validation& validation) {
                      [](const ThresholdCheck& check) { return check.passed; });
 }
 
-std::string validation_page(const Validation& validation, const PageSettings& settings, int threads,
-                            Progress* progress) {
+std::string validation_page(const Validation& validation, const PageSettings& settings,
+                            const RunContext& run) {
   const QualityReport& quality = validation.quality.value();
   std::string body = header(validation) + tiles(validation) + checks(validation) +
                      figures(quality) + charts(quality) + worst_queries(validation);
-  body += pictures_html(lobe_pictures(validation, settings.lobes, threads, progress));
+  body += pictures_html(lobe_pictures(validation, settings.lobes, run));
   body += "<h2>The whole table</h2>\n<div class=\"pair\">\n" +
           pictures_html(table_pictures(validation)) + "</div>\n";
   if (settings.sphere_size > 0) {
-    const NamedPicture spheres = sphere_picture(validation, settings, threads, progress);
+    const NamedPicture spheres = sphere_picture(validation, settings, run);
     body += "<h2>Rendered</h2>\n" + html::figure(spheres.canvas, spheres.title, spheres.caption);
   }
   body += how(validation);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "judge/invariants.h"
 #include "judge/quality.h"
 #include "judge/quality_summary.h"
@@ -37,9 +37,9 @@ struct PageSettings {
   std::size_t sphere_samples = 1024;  // of the GGX reference, a pixel
 };
 
-// One HTML file's content, with all pictures within. `threads` and `progress` are for the spheres
-// and lobes; throws Interrupted when a stop is asked for, std::bad_optional_access without quality.
-std::string validation_page(const Validation& validation, const PageSettings& settings, int threads,
-                            Progress* progress);
+// One HTML file's content, with all pictures within. Throws Interrupted when a stop is asked for,
+// std::bad_optional_access without quality.
+std::string validation_page(const Validation& validation, const PageSettings& settings,
+                            const RunContext& run);
 
 }  // namespace ltc

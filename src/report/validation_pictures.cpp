@@ -144,12 +144,12 @@ std::vector<NamedPicture> table_pictures(const Validation& validation) {
 }
 
 std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_t lobes,
-                                        int threads, Progress* progress) {
+                                        const RunContext& run) {
   std::vector<LobeToDraw> to_draw = failing_entries(validation, lobes);
   for (const LobeToDraw& lobe : worst_lobes(validation, lobes))
     to_draw.push_back(lobe);
   std::vector<std::optional<picture::Canvas>> canvases(to_draw.size());
-  parallel_for_each("draw lobes", to_draw.size(), threads, progress, [&](std::size_t i) {
+  parallel_for_each("draw lobes", to_draw.size(), run, [&](std::size_t i) {
     const LobeToDraw& lobe = to_draw[i];
     picture::Words words{lobe.title, lobe_words(lobe.lobe), {lobe.words}};
     canvases[i] = render_lobe(lobe_panels(lobe.lobe, lobe.matrix, words, lobe_side),
@@ -161,8 +161,8 @@ std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_
   return pictures;
 }
 
-NamedPicture sphere_picture(const Validation& validation, const PageSettings& settings, int threads,
-                            Progress* progress) {
+NamedPicture sphere_picture(const Validation& validation, const PageSettings& settings,
+                            const RunContext& run) {
   Table table = validation.table;
   fill_missing_albedo(table);
   const Table* const pointer = &table;
@@ -180,9 +180,9 @@ NamedPicture sphere_picture(const Validation& validation, const PageSettings& se
        {SphereMaterial{0.05, 0.25, 1}, SphereMaterial{0.5, 0.02, 1}, SphereMaterial{0.5, 0.25, 1},
         SphereMaterial{0.5, 1, 1}})
     content.rows.push_back(
-        {material, render_sphere({&pointer, 1}, material, sphere,
-                                 fmt::format("render {}, {}", material.alpha_x, material.alpha_y),
-                                 threads, progress)});
+        {material,
+         render_sphere({&pointer, 1}, material, sphere,
+                       fmt::format("render {}, {}", material.alpha_x, material.alpha_y), run)});
   return {content.title, "The materials of figure 14 of Aakash et al. 2022.", draw(content)};
 }
 

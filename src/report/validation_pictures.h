@@ -25,10 +25,10 @@ std::vector<NamedPicture> table_pictures(const Validation& validation);
 // GGX, LTC and difference of the worst queries as the table looks them up, then of entries that
 // break an invariant.
 std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_t lobes,
-                                        int threads, Progress* progress);
+                                        const RunContext& run);
 
 // The spheres of figure 14 of Aakash et al. 2022 by the table.
-NamedPicture sphere_picture(const Validation& validation, const PageSettings& settings, int threads,
-                            Progress* progress);
+NamedPicture sphere_picture(const Validation& validation, const PageSettings& settings,
+                            const RunContext& run);
 
 }  // namespace ltc

@@ -33,9 +33,9 @@ struct Worker {
 
 class Runner {
  public:
-  Runner(const StressTask& task, Progress* progress)
+  Runner(const StressTask& task, const RunContext& context)
       : task_(task),
-        progress_(progress),
+        progress_(context.progress),
         solver_(make_solver(task.fit)),
         reference_(make_solver(task.reference)) {}
 
@@ -125,15 +125,15 @@ double set_ratios(std::vector<StressFit>& fits, double reference_loss, double no
   return best;
 }
 
-StressRun run_stress(const StressTask& task, int threads, Progress* progress) {
+StressRun run_stress(const StressTask& task, const RunContext& context) {
   const Clock::time_point begin = Clock::now();
-  const Runner runner(task, progress);
+  const Runner runner(task, context);
   StressRun run;
   run.fits.resize(task.lobes.size() * stress_starts().size());
   run.best_loss.resize(task.lobes.size());
   run.spread.resize(task.lobes.size());
   parallel_for_each<Worker>(
-      "stress", task.lobes.size(), threads, progress, [&] { return Worker(task.judge); },
+      "stress", task.lobes.size(), context, [&] { return Worker(task.judge); },
       [&](std::size_t i, Worker& worker) { runner.fit(i, worker, run); });
   run.seconds = seconds_since(begin);
   return run;

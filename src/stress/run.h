@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/run_context.h"
 #include "fit/settings.h"
 #include "fit/solver.h"
 #include "judge/compare.h"
@@ -52,9 +52,9 @@ struct StressRun {
 // The seed of every fit of a run; `ltcfit fit` has the same.
 std::uint64_t stress_seed(const FitSettings& fit);
 
-// The same bits with any number of threads but for the times. Throws Interrupted when `progress`
-// (which may be null) asks for a stop.
-StressRun run_stress(const StressTask& task, int threads, Progress* progress);
+// The same bits with any number of threads but for the times. Throws Interrupted when a stop
+// is asked for.
+StressRun run_stress(const StressTask& task, const RunContext& context);
 
 // `ratio` of all fits of a lobe, whose losses are known: over the least of them that a finite
 // matrix with determinant > 0 has, `reference_loss` (which may be NaN) included. Losses below the

@@ -49,18 +49,18 @@ FrontierRun made_up(const std::vector<std::vector<double>>& losses,
 TEST(Frontier, FitsWhatSymmetryLeaves) {
   const Grid grid = Grid::paper(4);
   const std::vector<std::size_t> entries = fitted_entries(grid);
-  const auto entries_are_fitted = fit_table(
-      grid,
-      [] {
-        FitSettings least;
-        GaussNewtonSettings& few = least.gauss_newton;
-        few.coarse_samples = few.samples = few.target_samples = 64;
-        few.coarse_directions = few.directions = 4;
-        few.coarse_steps = few.neighbour_sweeps = 0;
-        few.steps = few.starts = 1;
-        return least;
-      }(),
-      1, nullptr);
+  const auto entries_are_fitted = fit_table(grid,
+                                            [] {
+                                              FitSettings least;
+                                              GaussNewtonSettings& few = least.gauss_newton;
+                                              few.coarse_samples = few.samples =
+                                                  few.target_samples = 64;
+                                              few.coarse_directions = few.directions = 4;
+                                              few.coarse_steps = few.neighbour_sweeps = 0;
+                                              few.steps = few.starts = 1;
+                                              return least;
+                                            }(),
+                                            {1});
   std::size_t count = 0;
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
     const bool fitted = entries_are_fitted[flat].status != Status::copied;
@@ -132,10 +132,10 @@ TEST(Frontier, TellsMirrorsFromTheRest) {
 
 TEST(Frontier, JudgesWhatTheTableWouldHold) {
   const FrontierTask task = small_task("default,default-sweep", 5);
-  const FrontierRun run = measure_frontier(task, nullptr);
+  const FrontierRun run = measure_frontier(task);
   HeldOutJudge judge(task.judge.samples, task.judge.directions, task.judge.seed);
   for (std::size_t i = 0; i < task.settings.size(); ++i) {
-    const std::vector<FittedEntry> table = fit_table(task.grid, task.settings[i].fit, 1, nullptr);
+    const std::vector<FittedEntry> table = fit_table(task.grid, task.settings[i].fit, {1});
     for (std::size_t place = 0; place < task.entries.size(); ++place) {
       const std::size_t flat = task.entries[place];
       judge.set_lobe(task.grid.lobe(task.grid.node(flat)));
@@ -151,7 +151,7 @@ TEST(Frontier, JudgesWhatTheTableWouldHold) {
 
 TEST(Frontier, TheReferenceIsTheBestOfAllOrTheTable) {
   FrontierTask task = small_task("gn-256x16,default", 4);
-  const FrontierRun best = measure_frontier(task, nullptr);
+  const FrontierRun best = measure_frontier(task);
   for (std::size_t place = 0; place < task.entries.size(); ++place)
     EXPECT_EQ(best.reference_loss[place],
               std::min(best.measurements[0][place].loss, best.measurements[1][place].loss));
@@ -159,7 +159,7 @@ TEST(Frontier, TheReferenceIsTheBestOfAllOrTheTable) {
   for (std::size_t flat = 0; flat < task.grid.size(); ++flat)
     cosines.set_stored(flat, Eigen::Matrix3d::Identity());
   task.reference = &cosines;
-  const FrontierRun against = measure_frontier(task, nullptr);
+  const FrontierRun against = measure_frontier(task);
   HeldOutJudge judge(task.judge.samples, task.judge.directions, task.judge.seed);
   judge.set_lobe(task.grid.lobe(task.grid.node(task.entries[2])));
   EXPECT_EQ(against.reference_loss[2], judge.loss(Eigen::Matrix3d::Identity()));
@@ -170,7 +170,7 @@ TEST(Frontier, ExtrapolatesTheDescentAndLetsItsErrorBeStoodInFor) {
   FrontierTask task = small_task("sgd-published", 3);
   task.settings[0].fit.sgd.samples = 64;
   task.settings[0].fit.sgd.directions = 4;
-  const FrontierRun timed = measure_frontier(task, nullptr);
+  const FrontierRun timed = measure_frontier(task);
   const SettingSummary alone = summarize(task, timed)[0];
   EXPECT_EQ(alone.error_source, ErrorSource::none);
   EXPECT_EQ(alone.judged, 0u);
@@ -182,14 +182,14 @@ TEST(Frontier, ExtrapolatesTheDescentAndLetsItsErrorBeStoodInFor) {
   for (std::size_t flat = 0; flat < task.grid.size(); ++flat)
     cosines.set_stored(flat, Eigen::Matrix3d::Identity());
   task.published = &cosines;
-  const SettingSummary published = summarize(task, measure_frontier(task, nullptr))[0];
+  const SettingSummary published = summarize(task, measure_frontier(task))[0];
   EXPECT_EQ(published.error_source, ErrorSource::published_table);
   EXPECT_EQ(published.judged, 3u);
 
   task.published = nullptr;
   task.whole_fits = 1;
   task.settings[0].fit.sgd.steps = 20;
-  const FrontierRun run = measure_frontier(task, nullptr);
+  const FrontierRun run = measure_frontier(task);
   const SettingSummary whole = summarize(task, run)[0];
   EXPECT_EQ(whole.error_source, ErrorSource::whole_fits);
   EXPECT_EQ(whole.judged, 1u);
@@ -202,11 +202,11 @@ TEST(Frontier, TablesOfAnotherGridAreRefused) {
   FrontierTask task = small_task("default", 1);
   const Table other = Table::empty(Grid::paper(3), Storage::matrix);
   task.reference = &other;
-  test::expect_one_line(test::message_of<InputError>([&] { measure_frontier(task, nullptr); }),
+  test::expect_one_line(test::message_of<InputError>([&] { measure_frontier(task); }),
                         {"4x4x4x4", "3x3x3x3"});
   task.reference = nullptr;
   task.published = &other;
-  test::expect_one_line(test::message_of<InputError>([&] { measure_frontier(task, nullptr); }),
+  test::expect_one_line(test::message_of<InputError>([&] { measure_frontier(task); }),
                         {"4x4x4x4", "3x3x3x3"});
 }
 

@@ -138,7 +138,7 @@ std::vector<Eigen::Matrix3d> reference_matrices(const Table& table,
   const std::unique_ptr<Solver> solver = make_solver(reference_settings());
   std::vector<Eigen::Matrix3d> matrices(entries.size());
   parallel_for_each<State>(
-      "fit", entries.size(), 2, nullptr, [] { return State(); },
+      "fit", entries.size(), {2}, [] { return State(); },
       [&](std::size_t i, State& state) {
         FitRequest request;
         request.lobe = table.grid.lobe(table.grid.node(entries[i]));
@@ -170,7 +170,7 @@ Table fitted_by_sgd(Table table, const std::vector<std::size_t>& entries) {
   std::vector<bool> needed(table.grid.size());
   for (const std::size_t flat : entries)
     needed[flat] = true;
-  const std::vector<FittedEntry> fitted = fit_table(table.grid, config.fit, needed, 2, nullptr);
+  const std::vector<FittedEntry> fitted = fit_table(table.grid, config.fit, needed, {2});
   for (const std::size_t flat : entries)
     table.set_stored(flat, fitted[flat].matrix / fitted[flat].matrix.col(2).norm());
   return table;

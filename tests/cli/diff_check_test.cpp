@@ -28,8 +28,7 @@ TEST(DiffTolerance, BoundsTheDistanceBetweenTheLobes) {
   write_hdf5(damaged_example(), folder / "bad.h5");
   const std::size_t bad = example().grid.flat(damaged_node);
   const double distance =
-      compare_tables(damaged_example(), example(), quick_settings(), 1, nullptr)[bad]
-          .relative_distance();
+      compare_tables(damaged_example(), example(), quick_settings(), {1})[bad].relative_distance();
   const auto run = [&](const std::string& tolerance) {
     return run_ltcfit(diff("bad.h5", "good.h5", {"--tolerance", tolerance, "--json", "all.json"}),
                       folder.path());

@@ -99,8 +99,7 @@ TEST(Diff, TheCsvHasEveryEntryInTheOrderOfTheGrid) {
             "theta_degrees,phi_degrees,area_light_error_a,area_light_error_b,"
             "area_light_error_with_amplitude_a,area_light_error_with_amplitude_b");
   EXPECT_TRUE(lines.back().starts_with("nan,nan,nan,nan,0.")) << lines.back();
-  const std::vector<EntryComparison> expected =
-      compare_tables(bad, good, quick_settings(), 1, nullptr);
+  const std::vector<EntryComparison> expected = compare_tables(bad, good, quick_settings(), {1});
   for (std::size_t flat = 0; flat < good.grid.size(); ++flat) {
     std::istringstream line(lines[1 + flat]);
     std::vector<double> values;
@@ -152,7 +151,7 @@ TEST(Diff, TheJsonHasTheReport) {
   EXPECT_EQ(json["compared"], 120);
   EXPECT_TRUE(json["tolerance"].is_null());
   const std::vector<EntryComparison> expected =
-      compare_tables(damaged_example(), example(), quick_settings(), 1, nullptr);
+      compare_tables(damaged_example(), example(), quick_settings(), {1});
   const std::size_t bad = example().grid.flat(damaged_node);
   ASSERT_EQ(json["entries"].size(), 120u);
   EXPECT_EQ(json["entries"][bad]["entry"], "0,1,0,2");

@@ -36,7 +36,7 @@ TEST(Parallel, DoesEveryPieceOfWorkOnce) {
     std::atomic<int> states{0};
     Watched progress;
     parallel_for_each<int>(
-        "work", done.size(), threads, &progress, [&] { return ++states; },
+        "work", done.size(), {threads, &progress}, [&] { return ++states; },
         [&](std::size_t i, int&) { ++done[i]; });
     EXPECT_EQ(done, std::vector<int>(1000, 1));
     EXPECT_EQ(states, threads);
@@ -49,15 +49,33 @@ TEST(Parallel, DoesEveryPieceOfWorkOnce) {
 
 TEST(Parallel, WorksWithoutAWatcherAndWithoutWork) {
   int done = 0;
-  parallel_for_each<int>("none", 0, 2, nullptr, no_state, [&](std::size_t, int&) { ++done; });
+  parallel_for_each<int>("none", 0, {2}, no_state, [&](std::size_t, int&) { ++done; });
   EXPECT_EQ(done, 0);
+}
+
+TEST(Parallel, PartsOfAStageAreDoneOnceAndNotCounted) {
+  Watched progress;
+  const RunContext run{2, &progress};
+  const Stage stage(run, "work", 7);
+  std::vector<int> done(1000, 0);
+  parallel_for(done.size(), run, [&](std::size_t i) { ++done[i]; });
+  parallel_for<int>(done.size(), run, no_state, [&](std::size_t i, int&) { ++done[i]; });
+  EXPECT_EQ(done, std::vector<int>(1000, 2));
+  EXPECT_EQ(progress.total, 7u);
+  EXPECT_EQ(progress.done(), 0u);
+  progress.request_stop();
+  EXPECT_THROW(parallel_for(done.size(), run, [&](std::size_t i) { ++done[i]; }), Interrupted);
+  EXPECT_THROW(
+      parallel_for<int>(done.size(), run, no_state, [&](std::size_t i, int&) { ++done[i]; }),
+      Interrupted);
+  EXPECT_EQ(done, std::vector<int>(1000, 2));
 }
 
 TEST(Parallel, AnExceptionOfTheWorkArrivesAndEndsIt) {
   for (const int threads : {1, 2, 16}) {
     Watched progress;
     try {
-      parallel_for_each<int>("work", more_than_is_ever_done, threads, &progress, no_state,
+      parallel_for_each<int>("work", more_than_is_ever_done, {threads, &progress}, no_state,
                              [&](std::size_t i, int&) {
                                if (i == 3)
                                  throw std::runtime_error("at 3");
@@ -74,7 +92,7 @@ TEST(Parallel, AnExceptionOfTheWorkArrivesAndEndsIt) {
 TEST(Parallel, AThreadFailsOnlyOnce) {
   for (const int threads : {1, 2, 16}) {
     std::atomic<int> failures{0};
-    EXPECT_THROW(parallel_for_each<int>("work", 1000, threads, nullptr, no_state,
+    EXPECT_THROW(parallel_for_each<int>("work", 1000, {threads}, no_state,
                                         [&](std::size_t, int&) {
                                           ++failures;
                                           throw std::runtime_error("always");
@@ -89,7 +107,7 @@ TEST(Parallel, AnExceptionOfMakeStateArrives) {
   for (const int threads : {1, 2, 16}) {
     std::atomic<int> made{0};
     EXPECT_THROW(parallel_for_each<int>(
-                     "work", 100, threads, nullptr,
+                     "work", 100, {threads},
                      [&]() -> int {
                        if (++made == 1)
                          throw std::out_of_range("no state");
@@ -104,7 +122,7 @@ TEST(Parallel, AStopIsThrownAsInterrupted) {
   for (const int threads : {1, 2, 16}) {
     Watched progress;
     EXPECT_THROW(
-        parallel_for_each<int>("work", more_than_is_ever_done, threads, &progress, no_state,
+        parallel_for_each<int>("work", more_than_is_ever_done, {threads, &progress}, no_state,
                                [&](std::size_t i, int&) {
                                  if (i == 5)
                                    progress.request_stop();
@@ -116,7 +134,7 @@ TEST(Parallel, AStopIsThrownAsInterrupted) {
 
 TEST(Parallel, AnExceptionComesBeforeAStop) {
   Watched progress;
-  EXPECT_THROW(parallel_for_each<int>("work", 10, 2, &progress, no_state,
+  EXPECT_THROW(parallel_for_each<int>("work", 10, {2, &progress}, no_state,
                                       [&](std::size_t, int&) {
                                         progress.request_stop();
                                         throw std::runtime_error("failed");

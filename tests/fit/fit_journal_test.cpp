@@ -34,7 +34,7 @@ const Grid grid = Grid::paper(3);
 
 std::vector<FittedEntry> fit(FitJournal* journal, Progress* progress = nullptr) {
   const std::vector<bool> needed(grid.size(), true);
-  return fit_table(grid, quick_settings(), needed, 2, progress, nullptr, journal);
+  return fit_table(grid, quick_settings(), needed, {2, progress}, nullptr, journal);
 }
 
 // The journal of a whole run.

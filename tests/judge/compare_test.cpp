@@ -24,7 +24,7 @@ CompareSettings quick() {
 
 std::vector<EntryComparison> compare(const Table& a, const Table& b,
                                      const CompareSettings& settings = quick()) {
-  return compare_tables(a, b, settings, 1, nullptr);
+  return compare_tables(a, b, settings, {1});
 }
 
 Table example() {
@@ -192,7 +192,7 @@ TEST(Compare, TheNumberOfThreadsChangesNoBit) {
     return matrix;
   });
   const std::vector<EntryComparison> one = compare(a, b),
-                                     three = compare_tables(a, b, quick(), 3, nullptr);
+                                     three = compare_tables(a, b, quick(), {3});
   for (std::size_t flat = 0; flat < one.size(); ++flat) {
     EXPECT_EQ(one[flat].loss_a, three[flat].loss_a);
     EXPECT_EQ(one[flat].loss_b, three[flat].loss_b);

@@ -23,7 +23,7 @@ Table table_of(Storage storage) {
 }
 
 std::vector<double> errors_of(const Table& table) {
-  return half_precision_errors(table, std::vector<bool>(table.grid.size(), true), 2, nullptr);
+  return half_precision_errors(table, std::vector<bool>(table.grid.size(), true), {2});
 }
 
 double largest(const Table& table, bool smoothest) {

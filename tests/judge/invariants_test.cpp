@@ -29,12 +29,12 @@ Config small_config(Storage storage) {
 
 // Fitted once for all tests.
 const Table& good_table() {
-  static const Table table = generate_table(small_config(Storage::matrix), 1, nullptr, nullptr);
+  static const Table table = generate_table(small_config(Storage::matrix), {1});
   return table;
 }
 
 std::vector<InvariantResult> check(const Table& table, int threads = 1) {
-  return check_invariants(table, InvariantLimits{}, threads, nullptr);
+  return check_invariants(table, InvariantLimits{}, {threads});
 }
 
 const InvariantResult& named(const std::vector<InvariantResult>& results, const std::string& name) {
@@ -64,9 +64,8 @@ Eigen::Matrix3d turn(double degrees) {
 TEST(Invariants, HoldForASoundTableOfAnyStorage) {
   for (const Storage storage :
        {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame}) {
-    const Table table = storage == Storage::matrix
-                            ? good_table()
-                            : generate_table(small_config(storage), 1, nullptr, nullptr);
+    const Table table =
+        storage == Storage::matrix ? good_table() : generate_table(small_config(storage), {1});
     const std::vector<InvariantResult> results = check(table);
     EXPECT_EQ(results.size(), 15u);
     for (const InvariantResult& result : results) {
@@ -275,7 +274,7 @@ TEST(Invariants, AdjacentBrokenEntriesAreBothNamedByTheirJumps) {
     replace_matrix(table, a, pair.of_a);
     replace_matrix(table, b, pair.of_b);
     const std::vector<InvariantResult> results =
-        check_invariants(table, InvariantLimits{}, 1, nullptr, matrices_only);
+        check_invariants(table, InvariantLimits{}, {1}, matrices_only);
     const std::vector<std::size_t>& entries = named(results, "neighbours").entries;
     EXPECT_EQ(std::set<std::size_t>(entries.begin(), entries.end()), (std::set<std::size_t>{a, b}));
   }
@@ -309,7 +308,7 @@ TEST(Invariants, WhatIsNotInTheFileIsNotPassedSilently) {
   table.fresnel = table.sw_loss = table.amplitude;
   const TableContents none{.albedo = false, .loss = false};
   const std::vector<InvariantResult> results =
-      check_invariants(table, InvariantLimits{}, 1, nullptr, none);
+      check_invariants(table, InvariantLimits{}, {1}, none);
   EXPECT_EQ(failed(results), std::set<std::string>{});
   std::set<std::string> unchecked;
   for (const InvariantResult& result : results)
@@ -330,7 +329,7 @@ TEST(Invariants, WhatHasNoLimitIsToldAndNotJudged) {
   InvariantLimits limits;
   limits.half_error = 0.01;
   limits.below_horizon = 0.01;
-  const std::vector<InvariantResult> strict = check_invariants(good_table(), limits, 1, nullptr);
+  const std::vector<InvariantResult> strict = check_invariants(good_table(), limits, {1});
   // 16 bits lose the smoothest lobes alone.
   const InvariantResult& half = named(strict, "half precision");
   EXPECT_TRUE(half.judged);
@@ -348,7 +347,7 @@ TEST(Invariants, ALobeTurnedBelowTheHorizonIsFound) {
   });
   InvariantLimits limits;
   limits.below_horizon = 0.5;
-  const std::vector<InvariantResult> results = check_invariants(table, limits, 1, nullptr);
+  const std::vector<InvariantResult> results = check_invariants(table, limits, {1});
   EXPECT_EQ(named(results, "below horizon").entries, std::vector<std::size_t>{general});
   EXPECT_EQ(named(results, "below horizon").value, share_below_horizon(table.matrix_at(general)));
 }
@@ -361,7 +360,7 @@ TEST(Invariants, WhatDoesNotApplyIsNotChecked) {
   InvariantLimits limits;
   limits.alignment_degrees = 180;
   const auto reason_of = [&](const char* name) {
-    const std::vector<InvariantResult> results = check_invariants(table, limits, 1, nullptr);
+    const std::vector<InvariantResult> results = check_invariants(table, limits, {1});
     const InvariantResult& result = named(results, name);
     EXPECT_FALSE(result.checked);
     EXPECT_TRUE(result.passed);
@@ -404,7 +403,7 @@ TEST(Invariants, AStopIsHeeded) {
     void begin_stage(std::string_view, std::size_t) override { request_stop(); }
     void end_stage() override {}
   } progress;
-  EXPECT_THROW(check_invariants(good_table(), InvariantLimits{}, 1, &progress), Interrupted);
+  EXPECT_THROW(check_invariants(good_table(), InvariantLimits{}, {1, &progress}), Interrupted);
 }
 
 }  // namespace

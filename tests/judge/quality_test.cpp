@@ -26,7 +26,7 @@ const Table& small_table() {
     Config config = load_config(std::nullopt, {});
     config.grid = Grid::paper(4);
     config.refine.steps = 0;
-    return generate_table(config, 2, nullptr, nullptr);
+    return generate_table(config, {2});
   }();
   return table;
 }
@@ -44,12 +44,12 @@ QualitySettings quick_settings() {
 
 const std::vector<QueryFloor>& quick_floors() {
   static const std::vector<QueryFloor> floors =
-      fit_queries(quick_settings(), small_table().grid.alpha_min, 2, nullptr);
+      fit_queries(quick_settings(), small_table().grid.alpha_min, {2});
   return floors;
 }
 
 QualityReport quick_report(const Table& table) {
-  return measure_quality(table, quick_settings(), quick_floors(), 2, nullptr);
+  return measure_quality(table, quick_settings(), quick_floors(), {2});
 }
 
 void expect_same(const Statistics& a, const Statistics& b) {
@@ -63,8 +63,8 @@ TEST(Quality, SameBitsWithAnyNumberOfThreads) {
   QualitySettings settings = quick_settings();
   settings.queries = 12;
   settings.most_nodes = 30;
-  const QualityReport one = measure_quality(small_table(), settings, 1, nullptr);
-  const QualityReport three = measure_quality(small_table(), settings, 3, nullptr);
+  const QualityReport one = measure_quality(small_table(), settings, {1});
+  const QualityReport three = measure_quality(small_table(), settings, {3});
   expect_same(one.nodes, three.nodes);
   expect_same(one.query_losses, three.query_losses);
   expect_same(one.floor_losses, three.floor_losses);
@@ -75,7 +75,7 @@ TEST(Quality, SameBitsWithAnyNumberOfThreads) {
 }
 
 TEST(Quality, FloorsCanBeShared) {
-  const QualityReport own = measure_quality(small_table(), quick_settings(), 2, nullptr);
+  const QualityReport own = measure_quality(small_table(), quick_settings(), {2});
   const QualityReport shared = quick_report(small_table());
   expect_same(own.query_losses, shared.query_losses);
   expect_same(own.floor_losses, shared.floor_losses);
@@ -108,7 +108,7 @@ TEST(Quality, QueriesAtNodesAreAsGoodAsTheNodes) {
   settings.most_nodes = 0;
   settings.query_directions = 64;
   const std::vector<QueryFloor> floors = floors_at_nodes(table.grid);
-  const QualityReport report = measure_quality(table, settings, floors, 2, nullptr);
+  const QualityReport report = measure_quality(table, settings, floors, {2});
   for (std::size_t i = 0; i < floors.size(); ++i) {
     HeldOutJudge judge(1024, 64, 1);
     judge.set_lobe(floors[i].lobe);
@@ -125,8 +125,8 @@ TEST(Quality, ARotatedEntryRaisesTheFigures) {
       Eigen::AngleAxisd(std::numbers::pi / 6, Eigen::Vector3d::UnitX()).toRotationMatrix();
   spoiled.set_stored(flat, turn * spoiled.stored_at(flat));
   const std::vector<QueryFloor> floors = floors_at_nodes(spoiled.grid);
-  const QualityReport before = measure_quality(small_table(), quick_settings(), floors, 2, nullptr);
-  const QualityReport after = measure_quality(spoiled, quick_settings(), floors, 2, nullptr);
+  const QualityReport before = measure_quality(small_table(), quick_settings(), floors, {2});
+  const QualityReport after = measure_quality(spoiled, quick_settings(), floors, {2});
   EXPECT_GT(after.node_losses[flat], 3 * before.node_losses[flat]);
   EXPECT_GT(after.nodes.mean, before.nodes.mean);
   EXPECT_GT(after.queries[2].relative_loss, 3 * before.queries[2].relative_loss);
@@ -207,10 +207,10 @@ TEST(Quality, ASingularMatrixIsCounted) {
 TEST(Quality, RefusesToJudgeByNothing) {
   QualitySettings settings = quick_settings();
   settings.query_directions = 0;
-  EXPECT_THROW(measure_quality(small_table(), settings, 1, nullptr), InputError);
+  EXPECT_THROW(measure_quality(small_table(), settings, {1}), InputError);
   settings = quick_settings();
   settings.quads = 0;
-  EXPECT_THROW(measure_quality(small_table(), settings, 1, nullptr), InputError);
+  EXPECT_THROW(measure_quality(small_table(), settings, {1}), InputError);
 }
 
 // The same nodes and queries, so that what differs is the error of judging each; how well 600
@@ -220,16 +220,16 @@ TEST(Quality, LossesAgreeWithThoseOfTenTimesTheSamples) {
   Config config = load_config(std::nullopt, {});
   config.grid = Grid::paper({8, 2, 3, 2});
   config.refine.steps = 0;
-  const Table table = generate_table(config, 2, nullptr, nullptr);
+  const Table table = generate_table(config, {2});
   QualitySettings settings;
   settings.queries = 20;
   settings.most_nodes = 48;
   settings.node_directions = settings.query_directions = 8;  // the same ones below
   settings.quad_samples = 64;
-  const QualityReport report = measure_quality(table, settings, 2, nullptr);
+  const QualityReport report = measure_quality(table, settings, {2});
   settings.node_samples *= 10;
   settings.query_samples *= 10;
-  const QualityReport finer = measure_quality(table, settings, 2, nullptr);
+  const QualityReport finer = measure_quality(table, settings, {2});
   EXPECT_NEAR(report.nodes.mean / finer.nodes.mean, 1, 0.02);
   EXPECT_NEAR(report.query_losses.mean / finer.query_losses.mean, 1, 0.02);
   EXPECT_NEAR(report.floor_losses.mean / finer.floor_losses.mean, 1, 0.02);
@@ -249,7 +249,7 @@ QualityReport area_lights_of(std::size_t quads, std::size_t samples) {
     floors.emplace_back();
     floors.back().lobe = lobe;
   }
-  return measure_quality(table, settings, floors, 2, nullptr);
+  return measure_quality(table, settings, floors, {2});
 }
 
 void expect_same_light(const QualityReport& report, const QualityReport& finer) {
@@ -276,7 +276,7 @@ TEST(Quality, EveryQueryHasRectanglesOfItsOwn) {
   std::vector<QueryFloor> floors(3);
   for (QueryFloor& floor : floors)
     floor.lobe = {0.3, 0.1, 0.7, 0.6};
-  const QualityReport report = measure_quality(small_table(), quick_settings(), floors, 1, nullptr);
+  const QualityReport report = measure_quality(small_table(), quick_settings(), floors, {1});
   EXPECT_NE(report.queries[0].area_light.mean_absolute, report.queries[1].area_light.mean_absolute);
   EXPECT_NE(report.queries[1].area_light.mean_absolute, report.queries[2].area_light.mean_absolute);
 }
@@ -288,9 +288,9 @@ TEST(Quality, FiguresAgreeWithThoseOfTenTimesTheDirections) {
   settings.queries = settings.most_nodes = 120;
   settings.node_samples = settings.query_samples = 512;
   settings.node_directions = settings.query_directions = 32;
-  const QualityReport report = measure_quality(small_table(), settings, 2, nullptr);
+  const QualityReport report = measure_quality(small_table(), settings, {2});
   settings.node_directions = settings.query_directions = 320;
-  const QualityReport finer = measure_quality(small_table(), settings, 2, nullptr);
+  const QualityReport finer = measure_quality(small_table(), settings, {2});
   EXPECT_NEAR(report.nodes.mean / finer.nodes.mean, 1, 0.02);
   EXPECT_NEAR(report.query_losses.mean / finer.query_losses.mean, 1, 0.02);
   EXPECT_NEAR(report.floor_losses.mean / finer.floor_losses.mean, 1, 0.02);
@@ -309,7 +309,7 @@ TEST(Quality, ThePublishedTableIsAtTwiceTheFloor) {
   settings.quad_samples = 4096;
   settings.most_nodes = 0;
   settings.floor_fit = FitSettings{};
-  const QualityReport report = measure_quality(read_table(file), settings, 2, nullptr);
+  const QualityReport report = measure_quality(read_table(file), settings, {2});
   EXPECT_NEAR(report.query_losses.mean, 0.117, 0.02);
   EXPECT_NEAR(report.floor_losses.mean, 0.060, 0.01);
   EXPECT_NEAR(report.area_light.mean, 0.0230, 0.005);

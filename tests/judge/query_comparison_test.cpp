@@ -45,13 +45,13 @@ TEST(CompareQueries, JudgesEachTableAsMeasureQualityDoes) {
   const Table coarse = testing::synthetic_table(Grid::paper(2), Storage::matrix),
               fine = testing::synthetic_table(Grid::paper({4, 3, 5, 4}), Storage::matrix);
   const QualitySettings settings = quick_settings();
-  const std::vector<QueryComparison> queries = compare_queries(coarse, fine, settings, 2, nullptr);
+  const std::vector<QueryComparison> queries = compare_queries(coarse, fine, settings, {2});
   ASSERT_EQ(queries.size(), settings.queries);
   std::vector<QueryFloor> floors;
   for (const QueryComparison& query : queries)
     floors.emplace_back().lobe = query.lobe;
-  const QualityReport of_coarse = measure_quality(coarse, settings, floors, 2, nullptr),
-                      of_fine = measure_quality(fine, settings, floors, 2, nullptr);
+  const QualityReport of_coarse = measure_quality(coarse, settings, floors, {2}),
+                      of_fine = measure_quality(fine, settings, floors, {2});
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const QueryComparison& query = queries[i];
     ASSERT_TRUE(query.judged());
@@ -74,8 +74,8 @@ TEST(CompareQueries, JudgesEachTableAsMeasureQualityDoes) {
 TEST(CompareQueries, SameBitsWithAnyNumberOfThreads) {
   const Table a = testing::synthetic_table(Grid::paper(2), Storage::matrix),
               b = testing::synthetic_table(Grid::paper(3), Storage::mirror_frame);
-  const std::vector<QueryComparison> one = compare_queries(a, b, quick_settings(), 1, nullptr),
-                                     three = compare_queries(a, b, quick_settings(), 3, nullptr);
+  const std::vector<QueryComparison> one = compare_queries(a, b, quick_settings(), {1}),
+                                     three = compare_queries(a, b, quick_settings(), {3});
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].lobes.loss_a, three[i].lobes.loss_a);
     EXPECT_EQ(one[i].lobes.distance, three[i].lobes.distance);
@@ -95,7 +95,7 @@ TEST(CompareQueries, CountsWhatATableCannotAnswer) {
     singular.set_stored(flat, Eigen::Matrix3d::Zero());
   const std::size_t all = quick_settings().queries;
   const auto summary = [](const Table& a, const Table& b) {
-    return summarize_queries(compare_queries(a, b, quick_settings(), 2, nullptr));
+    return summarize_queries(compare_queries(a, b, quick_settings(), {2}));
   };
   const QuerySummary lacking = summary(whole, part);
   EXPECT_EQ(lacking.judged, 0u);

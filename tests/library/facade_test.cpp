@@ -23,7 +23,7 @@ TEST(Facade, FitsALobeAsThePipelineDoes) {
   const FittedLobe fitted = fit({0.4, 0.1, 1.0, 0.5});
   const ltc::Config config;
   const ltc::LobeFit expected =
-      ltc::fit_lobe(config, {0.4, 0.1, 1.0, 0.5}, config.fit.seed, std::nullopt, nullptr);
+      ltc::fit_lobe(config, {0.4, 0.1, 1.0, 0.5}, config.fit.seed, std::nullopt);
   EXPECT_EQ(fitted.shading.matrix, expected.matrix);
   EXPECT_EQ(fitted.shading.amplitude, expected.albedo.amplitude);
   EXPECT_EQ(fitted.shading.fresnel, expected.albedo.fresnel);
@@ -40,7 +40,7 @@ TEST(Facade, RefusesALobeOutOfRange) {
 TEST(Facade, MakesWritesReadsAndLooksUpATable) {
   const Table made = generate(small);
   const ltc::Table expected =
-      ltc::generate_table(ltc::load_config(std::nullopt, small.overrides), 1, nullptr, nullptr);
+      ltc::generate_table(ltc::load_config(std::nullopt, small.overrides), {1});
   const ltc::test::TemporaryDirectory folder;
   for (const char* name : {"t.h5", "t.npy", "t.0.exr"}) {
     SCOPED_TRACE(name);

@@ -61,23 +61,23 @@ TEST(FitOne, EntriesOfASmallTableBitForBit) {
     Config config = small_config({3, 4, 3, 3}, sweeps);
     config.fit.target = target;
     config.storage = Storage::mirror_frame;
-    const Table table = generate_table(config, 2, nullptr, nullptr);
+    const Table table = generate_table(config, {2});
     const std::vector<bool> all(config.grid.size(), true);
     // Of the 108 entries every fifth, in turn of all indices.
     for (std::size_t flat = 0; flat < config.grid.size(); flat += 5)
-      expect_same_entry(table, flat, fit_table_entry(config, all, flat, 1, nullptr));
+      expect_same_entry(table, flat, fit_table_entry(config, all, flat, {1}));
   }
 }
 
 TEST(FitOne, SampledEntriesOfThePapersGridBitForBit) {
   const Config config = small_config({8, 8, 8, 8}, 2);
-  const Table table = generate_table(config, 2, nullptr, nullptr);
+  const Table table = generate_table(config, {2});
   const std::vector<bool> all(config.grid.size(), true);
   std::size_t copies = 0;
   // 131 shares no factor with 4096: the sample meets all indices of every axis.
   for (std::size_t i = 0; i < 24; ++i) {
     const std::size_t flat = 131 * i * 3 % config.grid.size();
-    expect_same_entry(table, flat, fit_table_entry(config, all, flat, 1, nullptr));
+    expect_same_entry(table, flat, fit_table_entry(config, all, flat, {1}));
     copies += table.status[flat] == Status::copied;
   }
   EXPECT_GE(copies, 3u);
@@ -89,26 +89,25 @@ TEST(FitOne, EntriesOfAPartialTableBitForBit) {
   std::vector<bool> needed(config.grid.size());
   for (std::size_t flat = 0; flat < needed.size(); ++flat)
     needed[flat] = flat % 5 != 0 && flat % 7 != 2;
-  const Table table = generate_table(config, needed, 2, nullptr, nullptr);
+  const Table table = generate_table(config, needed, {2}, nullptr);
   for (std::size_t flat = 1; flat < needed.size(); flat += 11)
     if (needed[flat])
-      expect_same_entry(table, flat, fit_table_entry(config, needed, flat, 1, nullptr));
+      expect_same_entry(table, flat, fit_table_entry(config, needed, flat, {1}));
     else
       test::expect_one_line(
-          test::message_of<InputError>([&] { fit_table_entry(config, needed, flat, 1, nullptr); }),
+          test::message_of<InputError>([&] { fit_table_entry(config, needed, flat, {1}); }),
           {"not among"});
 }
 
 // Without the neighbourhood the bits differ somewhere: the tests above can fail.
 TEST(FitOne, SweepsMatter) {
   const Config config = small_config({3, 4, 3, 3}, 1);
-  const Table table = generate_table(config, 2, nullptr, nullptr);
+  const Table table = generate_table(config, {2});
   std::size_t different = 0;
   for (std::size_t flat = 0; flat < config.grid.size(); flat += 5) {
     std::vector<bool> alone(config.grid.size());
     alone[flat] = true;
-    different +=
-        fit_table_entry(config, alone, flat, 1, nullptr).finished.stored != table.stored_at(flat);
+    different += fit_table_entry(config, alone, flat, {1}).finished.stored != table.stored_at(flat);
   }
   EXPECT_GT(different, 2u);
 }
@@ -132,7 +131,7 @@ TEST(FitOne, FitsNoMoreThanTheNeighbourhood) {
 TEST(FitOne, WatchesEveryFit) {
   Config config = small_config({8, 8, 8, 8}, 2);
   const LobeFit fit = fit_table_entry(config, std::vector<bool>(config.grid.size(), true),
-                                      config.grid.flat({3, 3, 3, 3}), 1, nullptr);
+                                      config.grid.flat({3, 3, 3, 3}), {1});
   ASSERT_EQ(fit.fits.size(), 3u);
   EXPECT_FALSE(fit.fits.front().steps.empty());
   for (int sweep = 0; sweep < 3; ++sweep) {
@@ -144,7 +143,7 @@ TEST(FitOne, WatchesEveryFit) {
 TEST(FitOne, LobeByItself) {
   const GgxLobe lobe{0.5, 0.2, 0.9, 0.4};
   const Config config;
-  const LobeFit own = fit_lobe(config, lobe, 1, std::nullopt, nullptr);
+  const LobeFit own = fit_lobe(config, lobe, 1, std::nullopt);
   EXPECT_EQ(own.fitted.status, Status::fitted);
   EXPECT_NEAR(own.matrix.col(2).norm(), 1, 1e-6);  // rounded to floats
   EXPECT_GT(own.matrix.determinant(), 0);
@@ -152,7 +151,7 @@ TEST(FitOne, LobeByItself) {
   EXPECT_LT(own.held_out_loss, 1.2 * own.fitted.loss);
   for (const StartKind kind :
        {StartKind::first_order, StartKind::moments, StartKind::identity, StartKind::random}) {
-    const LobeFit from = fit_lobe(config, lobe, 1, starting_matrix(kind, lobe, 1), nullptr);
+    const LobeFit from = fit_lobe(config, lobe, 1, starting_matrix(kind, lobe, 1));
     ASSERT_FALSE(from.fits.front().steps.empty());
     // An ordinary lobe has one minimum worth the name; descents end within a few per cent of it.
     EXPECT_NEAR(from.fitted.loss / own.fitted.loss, 1, 0.05) << static_cast<int>(kind);
@@ -161,7 +160,7 @@ TEST(FitOne, LobeByItself) {
 
 TEST(FitOne, GradientChecksPassAfterTheFit) {
   for (const GgxLobe& lobe : test::ordinary_lobes()) {
-    const LobeFit fit = fit_lobe(Config(), lobe, 1, std::nullopt, nullptr);
+    const LobeFit fit = fit_lobe(Config(), lobe, 1, std::nullopt);
     const GradientCheck check = check_lobe_gradient(lobe, fit.matrix);
     EXPECT_TRUE(check.passed) << test::describe(lobe) << ": " << check.describe();
   }

@@ -33,8 +33,7 @@ QualityReport quality_of(const Grid& grid, int refine_steps, GenerateReport* rep
   settings.quads = 1;
   settings.quad_samples = 64;
   settings.floor_fit.gauss_newton.starts = 1;
-  return measure_quality(generate_table(config_on(grid, refine_steps), 2, nullptr, report),
-                         settings, 2, nullptr);
+  return measure_quality(generate_table(config_on(grid, refine_steps), {2}, report), settings, {2});
 }
 
 // `share` is what refinement leaves of the error, `over_floor` how far that is above an LTC of each
@@ -67,7 +66,7 @@ TEST(RefinedAxes, AnIsotropicTable) {
 // Its fit used to end with a column of 1e-7, by a step through zero, and a condition number of 1e7.
 TEST(RefinedAxes, NoColumnOfAThinLobesFitVanishes) {
   const double theta = Grid::paper().theta.nodes[5];
-  const LobeFit fit = fit_lobe(Config{}, {0.6, 1e-4, theta, 0}, 1, std::nullopt, nullptr);
+  const LobeFit fit = fit_lobe(Config{}, {0.6, 1e-4, theta, 0}, 1, std::nullopt);
   const Eigen::Vector3d singular = Eigen::JacobiSVD<Eigen::Matrix3d>(fit.matrix).singularValues();
   EXPECT_LT(singular[0] / singular[2], 5.01e6);  // the bound, and rounding to floats
   EXPECT_LT(fit.held_out_loss, 0.01 * fit.spread);

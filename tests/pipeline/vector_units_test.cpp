@@ -47,7 +47,7 @@ class VectorUnits : public ::testing::Test {
       hwy::SetSupportedTargetsForTest(target);
       auto& group = without_fused_products(target) ? tables.rounded : tables.fused;
       Table& table = group[hwy::TargetName(target)];
-      table = generate_table(config, 2, nullptr, nullptr);
+      table = generate_table(config, {2});
       table.created.clear();  // the one thing that may differ
     }
     hwy::SetSupportedTargetsForTest(0);

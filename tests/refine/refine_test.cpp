@@ -220,12 +220,12 @@ TEST(QuerySystem, GradientIsThatOfItsValue) {
     System system(grid, storage);
     const std::vector<Eigen::Matrix3d> stored = matrices(grid, storage);
     // Twice: the second time the smoothing goes by the loss of the first.
-    system.queries.evaluate(stored, 1, nullptr);
+    system.queries.evaluate(stored, {1});
     system.queries.adopt();
-    const double value = system.queries.evaluate(stored, 1, nullptr);
+    const double value = system.queries.evaluate(stored, {1});
     system.queries.adopt();
     NodeVectors gradient;
-    system.queries.gradient(gradient, 1);
+    system.queries.gradient(gradient, {1});
     NodeVectors step = random_step(grid.size(), 6);
     // Downhill, so that there is something to see.
     const double length = 2e-3 / std::sqrt(dot(gradient, gradient));
@@ -238,9 +238,8 @@ TEST(QuerySystem, GradientIsThatOfItsValue) {
           result[n](i / 3, i % 3) += sign * step[n][i];
       return result;
     };
-    const double difference = (system.queries.evaluate(moved(1), 1, nullptr) -
-                               system.queries.evaluate(moved(-1), 1, nullptr)) /
-                              2;
+    const double difference =
+        (system.queries.evaluate(moved(1), {1}) - system.queries.evaluate(moved(-1), {1})) / 2;
     // The loss is binned and its gradient smoothed near zero residuals by 5 % of the loss: some per
     // cent on each query, less in the sum.
     EXPECT_NEAR(difference / dot(gradient, step), 1, 0.1) << storage_name(storage);
@@ -251,21 +250,21 @@ TEST(QuerySystem, GradientIsThatOfItsValue) {
 TEST(QuerySystem, CurvatureIsSymmetricPositiveAndHasItsBlocks) {
   const Grid grid = small_grid();
   System system(grid);
-  system.queries.evaluate(matrices(grid), 1, nullptr);
+  system.queries.evaluate(matrices(grid), {1});
   system.queries.adopt();
   const NodeVectors a = random_step(grid.size(), 7), b = random_step(grid.size(), 8);
   NodeVectors ha, hb;
-  system.queries.multiply(a, ha, 1);
-  system.queries.multiply(b, hb, 1);
+  system.queries.multiply(a, ha, {1});
+  system.queries.multiply(b, hb, {1});
   const double scale = std::sqrt(dot(a, ha) * dot(b, hb));
   EXPECT_GT(dot(a, ha), 0);
   EXPECT_NEAR(dot(a, hb) / scale, dot(b, ha) / scale, 1e-12);
   std::vector<Matrix9> blocks;
-  system.queries.diagonal_blocks(blocks, 1);
+  system.queries.diagonal_blocks(blocks, {1});
   for (const std::size_t node : {grid.flat({1, 1, 1, 1}), grid.flat({2, 2, 1, 0})}) {
     NodeVectors unit(grid.size(), Vector9::Zero()), column;
     unit[node][4] = 1;
-    system.queries.multiply(unit, column, 1);
+    system.queries.multiply(unit, column, {1});
     EXPECT_LT((column[node] - blocks[node].col(4)).norm(), 1e-12 * blocks[node].norm());
     EXPECT_GT(blocks[node].norm(), 0);
   }
@@ -289,14 +288,14 @@ TEST(RefinementStep, SolvesTheDampedNormalEquations) {
   std::vector<Eigen::Matrix3d> stored = matrices(grid);
   const NodeSpace space(grid, all_of(grid));
   space.symmetrise(stored);
-  system.queries.evaluate(stored, 1, nullptr);
+  system.queries.evaluate(stored, {1});
   system.queries.adopt();
-  const NodeVectors step = refinement_step(system.queries, space, stored, 1.0, 1.0, 1);
+  const NodeVectors step = refinement_step(system.queries, space, stored, 1.0, 1.0, {1});
   NodeVectors gradient, product;
-  system.queries.gradient(gradient, 1);
-  system.queries.multiply(step, product, 1);
+  system.queries.gradient(gradient, {1});
+  system.queries.multiply(step, product, {1});
   std::vector<Matrix9> blocks;
-  system.queries.diagonal_blocks(blocks, 1);
+  system.queries.diagonal_blocks(blocks, {1});
   Vector9 mean = Vector9::Zero();
   for (const Matrix9& block : blocks)
     mean += block.diagonal() / static_cast<double>(blocks.size());
@@ -324,7 +323,7 @@ RefineSettings quick_settings() {
 RefineReport refined(const RefineSettings& settings, int threads, const Grid& grid,
                      std::vector<Eigen::Matrix3d>& stored) {
   return refine(grid, Storage::matrix, all_of(grid), all_of(grid), {settings.range}, settings,
-                threads, nullptr, stored);
+                {threads}, stored);
 }
 
 TEST(Refine, LowersTheHeldOutLossAndKeepsSymmetry) {
@@ -377,12 +376,11 @@ TEST(Refine, NodeLossesAreThoseOfTheNodes) {
   const std::vector<Eigen::Matrix3d> stored = matrices(grid);
   std::vector<bool> present = all_of(grid);
   present[5] = false;
-  const std::vector<double> losses =
-      node_losses(grid, Storage::matrix, present, stored, 2, nullptr);
+  const std::vector<double> losses = node_losses(grid, Storage::matrix, present, stored, {2});
   EXPECT_TRUE(std::isnan(losses[5]));
   std::vector<Eigen::Matrix3d> worse = stored;
   worse[7].col(2) = Eigen::Vector3d(0.6, 0, 0.8);
-  const std::vector<double> other = node_losses(grid, Storage::matrix, present, worse, 1, nullptr);
+  const std::vector<double> other = node_losses(grid, Storage::matrix, present, worse, {1});
   EXPECT_EQ(other[6], losses[6]);
   EXPECT_GT(other[7], 1.1 * losses[7]);
 }

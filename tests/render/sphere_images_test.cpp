@@ -25,7 +25,7 @@ Table small_table() {
 
 SphereImages render(const Table& table, const SphereSettings& settings, int threads = 2) {
   const Table* const tables[] = {&table};
-  return render_sphere(tables, kMaterial, settings, "render", threads, nullptr);
+  return render_sphere(tables, kMaterial, settings, "render", {threads});
 }
 
 SphereSettings small_settings() {
@@ -140,7 +140,7 @@ TEST(SphereImages, RefuseWhatCannotBeRendered) {
   const auto message = [&](const SphereMaterial& material, const SphereSettings& settings) {
     const Table* const tables[] = {&table};
     return test::message_of<InputError>(
-        [&] { render_sphere(tables, material, settings, "render", 1, nullptr); });
+        [&] { render_sphere(tables, material, settings, "render", {1}); });
   };
   test::expect_one_line(message({0, 0.5, 1}, small_settings()), {"alpha_x 0", "[0.0001, 1]"});
   test::expect_one_line(message({0.5, 1.5, 1}, small_settings()), {"alpha_y 1.5", "[0.0001, 1]"});

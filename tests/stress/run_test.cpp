@@ -36,7 +36,7 @@ StressTask short_task() {
 // The bars of the long run.
 TEST(Stress, ShortRun) {
   const StressTask task = short_task();
-  const StressRun run = run_stress(task, 2, nullptr);
+  const StressRun run = run_stress(task, {2});
   const StressVerdict verdict = judge_stress(run.fits, 3);
   EXPECT_EQ(verdict.missed_bars, std::vector<std::string>());
   EXPECT_EQ(verdict.own.missed, 0u);
@@ -58,7 +58,7 @@ TEST(Stress, ShortRun) {
 TEST(Stress, SameBitsWithAnyNumberOfThreads) {
   StressTask task = short_task();
   task.lobes.resize(3);
-  const StressRun one = run_stress(task, 1, nullptr), three = run_stress(task, 3, nullptr);
+  const StressRun one = run_stress(task, {1}), three = run_stress(task, {3});
   ASSERT_EQ(one.fits.size(), three.fits.size());
   for (std::size_t i = 0; i < one.fits.size(); ++i) {
     EXPECT_EQ(one.fits[i].matrix, three.fits[i].matrix);

@@ -58,8 +58,8 @@ void expect_others_wrong(const Case& c, const Table& table) {
 }
 
 TEST(LookUpOfFits, IsAsNearAsADirectFitInEveryQuadrantAndBothRoughnessOrders) {
-  const Table matrices = generate_table(config_of(Storage::matrix), 2, nullptr, nullptr);
-  const Table mirrored = generate_table(config_of(Storage::mirror_frame), 2, nullptr, nullptr);
+  const Table matrices = generate_table(config_of(Storage::matrix), {2});
+  const Table mirrored = generate_table(config_of(Storage::mirror_frame), {2});
   const std::unique_ptr<Solver> solver = make_solver({});
   FitWorkspacePointer workspace = make_fit_workspace();
   HeldOutJudge judge(4096, 32);
