@@ -167,6 +167,13 @@ TEST(Exr, PaperTableIsAnAtlasOf64Squared) {
   EXPECT_EQ(read_channel(folder / "t.0.exr", "R").height, 64);
 }
 
+// Its exit code means nothing: exrinfo of OpenEXR 3.1 counts failures in a variable that it never
+// sets to zero, and ends with any number in a quarter of its runs on sound files. What it finds
+// wrong it prints as "ERROR".
+std::string printed_by_exrinfo(const std::filesystem::path& file) {
+  return testing::run("exrinfo -v " + file.string()).output;
+}
+
 TEST(Exr, ToolsShowSizeChannelsAndAttributes) {
   const TemporaryFolder folder;
   const Table table = testing::synthetic_table(Grid::paper(2), Storage::matrix);
@@ -187,10 +194,18 @@ TEST(Exr, ToolsShowSizeChannelsAndAttributes) {
           std::string("ltc:axes (type string): "
                       "\"{\"alpha\":[0.0,1.0],\"lambda\":[0.0,1.0],\"theta\":[0.0,1.570639")})
       EXPECT_NE(header.output.find(line), std::string::npos) << line << "\n" << header.output;
-    const Finished info = testing::run("exrinfo -v " + (folder / "t.1.exr").string());
-    EXPECT_EQ(info.exit_code, 0) << info.output;
-    EXPECT_NE(info.output.find("ltc:channels: string"), std::string::npos) << info.output;
+    const std::string info = printed_by_exrinfo(folder / "t.1.exr");
+    EXPECT_NE(info.find("ltc:channels: string"), std::string::npos) << info;
+    EXPECT_EQ(info.find("ERROR"), std::string::npos) << info;
   }
+}
+
+TEST(Exr, ExrinfoTellsOfAFileThatIsCutShort) {
+  const TemporaryFolder folder;
+  write_exr(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "t", false);
+  std::filesystem::resize_file(folder / "t.1.exr", 300);
+  const std::string info = printed_by_exrinfo(folder / "t.1.exr");
+  EXPECT_NE(info.find("ERROR"), std::string::npos) << info;
 }
 
 TEST(Exr, OurReaderGivesTheValuesBack) {
