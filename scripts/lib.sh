@@ -11,8 +11,9 @@ build_packages=(
   libcairo2-dev fonts-dejavu-core libnlopt-cxx-dev libnlopt-dev
   python3-dev python3-numpy pybind11-dev
 )
-# To build the tests; readers and compilers by others, which they check our files and snippets with.
-test_packages=(libgtest-dev libbenchmark-dev hdf5-tools openexr python3-h5py glslang-tools)
+# To build the tests; readers, compilers and shells by others, which they check our files and
+# snippets with.
+test_packages=(libgtest-dev libbenchmark-dev hdf5-tools openexr python3-h5py glslang-tools zsh fish)
 
 say() { echo "== $*" >&2; }
 

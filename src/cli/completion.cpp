@@ -20,6 +20,7 @@ namespace {
 struct Word {
   std::vector<std::string> names;  // "--config", "-c"; none for an argument
   std::string description, kind, shown_as;
+  bool repeats = false;
 
   bool takes_value() const { return !shown_as.empty(); }
   bool is_folder() const { return kind == value_kind::folder; }
@@ -51,7 +52,12 @@ Word word_of(const CLI::Option& option) {
   word.kind = option.get_type_name();
   if (option.get_items_expected_max() > 0)
     word.shown_as = option.get_option_text();
+  word.repeats = option.get_items_expected_max() > 1;
   return word;
+}
+
+bool is_long(const std::string& name) {
+  return name.starts_with("--");
 }
 
 CommandWords words_of(const std::string& name, const CLI::App& app) {
@@ -66,6 +72,11 @@ std::vector<CommandWords> all_words() {
   for (const Command& command : commands())
     all.push_back(words_of(command.name, *declared(command).app));
   return all;
+}
+
+// What stands in place of a command.
+std::vector<Word> program_words() {
+  return words_of("", *program_options()).options;
 }
 
 std::vector<std::string> names_of(const std::vector<Word>& words) {
@@ -116,7 +127,7 @@ _ltcfit() {
   if ((COMP_CWORD == 1)); then
     mapfile -t COMPREPLY < <(compgen -W ')";
   text += fmt::format("{} {}", fmt::join(command_names(all), " "),
-                      fmt::join(names_of(words_of("", *program_options()).options), " "));
+                      fmt::join(names_of(program_words()), " "));
   text += R"(' -- "$current")
     return
   fi
@@ -176,7 +187,9 @@ std::string zsh_option(const Word& word) {
       word.takes_value() ? fmt::format(":{}:{}", zsh_text(word.shown_as), zsh_values(word)) : "";
   std::string text;
   for (const std::string& name : word.names)
-    text += fmt::format(" \\\n        '{}[{}]{}'", name, zsh_text(word.description), value);
+    text += fmt::format(" \\\n        '{}{}{}[{}]{}'", word.repeats ? "*" : "", name,
+                        word.takes_value() && is_long(name) ? "=" : "", zsh_text(word.description),
+                        value);
   return text;
 }
 
@@ -188,7 +201,14 @@ std::string zsh_script(const std::vector<CommandWords>& all) {
     text += fmt::format("    '{}:{}'\n", command.name, zsh_text(command.summary));
   text += R"(  )
   if ((CURRENT == 2)); then
-    _describe command commands
+    if [[ $PREFIX == -* ]]; then
+      _arguments)";
+  for (const Word& option : program_words())
+    text += zsh_option(option);
+  text += R"(
+    else
+      _describe command commands
+    fi
     return
   fi
   local command=$words[2]
@@ -205,7 +225,15 @@ std::string zsh_script(const std::vector<CommandWords>& all) {
                           zsh_values(argument));
     text += "\n      ;;\n";
   }
-  return text + "  esac\n}\n_ltcfit \"$@\"\n";
+  // A function of a folder in $fpath, or sourced.
+  return text + R"(  esac
+}
+if [[ ${funcstack[1]} == _ltcfit ]]; then
+  _ltcfit "$@"
+else
+  compdef _ltcfit ltcfit
+fi
+)";
 }
 
 // ---- fish ----
@@ -228,20 +256,31 @@ std::string fish_values(const Word& word) {
   return word.takes_value() ? " -x" : "";
 }
 
+std::string fish_option(const std::string& line, const Word& option) {
+  std::string text = line;
+  for (const std::string& name : option.names)
+    text += is_long(name) ? " -l " + name.substr(2) : " -s " + name.substr(1);
+  return fmt::format("{}{} -d '{}'\n", text, fish_values(option), fish_text(option.description));
+}
+
 std::string fish_script(const std::vector<CommandWords>& all) {
-  std::string text =
-      "# fish completion of ltcfit, made by: ltcfit completion fish\ncomplete -c ltcfit -f\n";
+  // The command is the first word and no other: a file may be called as one is.
+  std::string text = R"(# fish completion of ltcfit, made by: ltcfit completion fish
+function __ltcfit_command_is
+  set -l words (commandline -opc)
+  test "$words[2]" = "$argv[1]"
+end
+complete -c ltcfit -f
+)";
+  const std::string first = "complete -c ltcfit -n '__ltcfit_command_is \"\"'";
+  for (const Word& option : program_words())
+    text += fish_option(first, option);
   for (const CommandWords& command : all) {
-    text += fmt::format("complete -c ltcfit -n __fish_use_subcommand -a {} -d '{}'\n", command.name,
-                        fish_text(command.summary));
+    text += fmt::format("{} -a {} -d '{}'\n", first, command.name, fish_text(command.summary));
     const std::string line =
-        fmt::format("complete -c ltcfit -n '__fish_seen_subcommand_from {}'", command.name);
-    for (const Word& option : command.options) {
-      text += line;
-      for (const std::string& name : option.names)
-        text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-      text += fmt::format("{} -d '{}'\n", fish_values(option), fish_text(option.description));
-    }
+        fmt::format("complete -c ltcfit -n '__ltcfit_command_is {}'", command.name);
+    for (const Word& option : command.options)
+      text += fish_option(line, option);
     for (const Word& argument : command.arguments)
       text += line + (argument.is_file() ? " -F" : fish_values(argument)) + "\n";
   }

@@ -4,6 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <string>
+
+#include "support/program.h"
+#include "test_paths.h"
+
 namespace ltc::cli {
 namespace {
 
@@ -56,6 +62,44 @@ TEST(Progress, CountsAfreshEachStage) {
   EXPECT_FALSE(progress.stop_requested());
   progress.request_stop();
   EXPECT_THROW(progress.throw_if_stopped(), Interrupted);
+}
+
+// The command line by which a terminal of the kind runs the program; what it shows goes to `shown`
+// too.
+std::vector<std::string> on_terminal(const std::string& kind, const std::string& arguments,
+                                     const std::filesystem::path& shown) {
+  return {"script", "-qfec", "TERM=" + kind + " " LTCFIT_PROGRAM " " + arguments, shown.string()};
+}
+
+constexpr const char* escape = "\033[";
+
+TEST(Progress, ADumbTerminalGetsLinesAndNoEscapes) {
+  if (test::run_program({"sh", "-c", "command -v script"}).exit_code != 0)
+    GTEST_SKIP() << "no script, which makes terminals";
+  const test::TemporaryDirectory folder;
+  const auto shown = folder / "shown";
+  ASSERT_EQ(test::run_program(on_terminal("dumb",
+                                          "generate --set table.alpha.nodes=2 --set "
+                                          "table.lambda.nodes=2 --set table.theta.nodes=2 --set "
+                                          "table.phi.nodes=2 --set refine.steps=0",
+                                          shown),
+                              folder.path())
+                .exit_code,
+            0);
+  const std::string text = test::read_file(shown);
+  EXPECT_NE(text.find("align: 16 to do"), std::string::npos) << text;
+  EXPECT_EQ(text.find(escape), std::string::npos) << text;
+}
+
+TEST(Progress, AnotherTerminalGetsABar) {
+  if (test::run_program({"sh", "-c", "command -v script"}).exit_code != 0)
+    GTEST_SKIP() << "no script, which makes terminals";
+  const test::TemporaryDirectory folder;
+  const auto shown = folder.write("shown", "");
+  test::RunningProgram run(on_terminal("xterm", "generate --set table.alpha.nodes=40", shown),
+                           folder.path());
+  EXPECT_TRUE(run.wait_until(
+      [&] { return test::read_file(shown).find(escape) != std::string::npos; }, test::patience));
 }
 
 }  // namespace
