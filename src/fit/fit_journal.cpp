@@ -21,8 +21,8 @@ FittedEntry unfinished() {
 }  // namespace
 
 FitJournal::FitJournal(std::size_t nodes, int sweeps) {
-  finished_.rounds.assign(1 + static_cast<std::size_t>(sweeps),
-                          std::vector<FittedEntry>(nodes, unfinished()));
+  for (int round = 0; round <= sweeps; ++round)  // each made in its place: they may be gigabytes
+    finished_.rounds.emplace_back(nodes, unfinished());
 }
 
 FitJournal::FitJournal(FinishedFits finished) : finished_(std::move(finished)) {

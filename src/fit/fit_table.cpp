@@ -24,15 +24,16 @@ Eigen::Matrix3d rounded_to_symmetry(const GgxLobe& lobe, Eigen::Matrix3d matrix)
   return matrix;
 }
 
-void copy_by_symmetry(const std::vector<PlannedEntry>& plan, std::vector<FittedEntry>& entries) {
-  for (std::size_t flat = 0; flat < plan.size(); ++flat) {
+void copy_by_symmetry(const std::vector<PlannedEntry>& plan, const RunContext& run,
+                      std::vector<FittedEntry>& entries) {
+  parallel_for(plan.size(), run, [&](std::size_t flat) {
     const std::size_t representative = plan[flat].representative;
     if (representative == flat || representative == PlannedEntry::none)
-      continue;
+      return;
     const FittedEntry& source = entries[representative];
     entries[flat] = {turned(source.matrix, plan[flat].turn_radians), source.loss, 0,
                      has_values(source.status) ? Status::copied : source.status};
-  }
+  });
 }
 
 // Takes the results that the journal knows; what is left to be fitted.
@@ -134,9 +135,14 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
                                    const std::vector<bool>& needed, const RunContext& run,
                                    FitWatch* watch, FitJournal* journal) {
+  return fit_table(grid, settings, plan_by_symmetry(grid, needed, run), run, watch, journal);
+}
+
+std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
+                                   const std::vector<PlannedEntry>& plan, const RunContext& run,
+                                   FitWatch* watch, FitJournal* journal) {
   const std::unique_ptr<Solver> solver = make_solver(settings);
-  const std::vector<PlannedEntry> whole_plan = plan_by_symmetry(grid);
-  const std::vector<PlannedEntry> plan = plan_by_symmetry(grid, needed);
+  const EqualLobes equal(grid);
   std::vector<std::size_t> to_fit;
   for (std::size_t flat = 0; flat < plan.size(); ++flat)
     if (plan[flat].representative == flat)
@@ -157,11 +163,11 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
                                              if (journal && !run.stop_requested())
                                                journal->note(round, flat, results[flat]);
                                            });
-    copy_by_symmetry(plan, results);
+    copy_by_symmetry(plan, run, results);
   };
   const auto plain_request = [&](std::size_t flat) {
     return FitRequest{grid.lobe(grid.node(flat)),
-                      entry_seed(settings.seed, whole_plan[flat].representative),
+                      entry_seed(settings.seed, equal.first_of(flat)),
                       {},
                       {},
                       run.progress};

@@ -22,13 +22,6 @@
 namespace ltc {
 namespace {
 
-std::size_t representative_count(const std::vector<PlannedEntry>& plan) {
-  std::size_t count = 0;
-  for (std::size_t flat = 0; flat < plan.size(); ++flat)
-    count += plan[flat].representative == flat;
-  return count;
-}
-
 void align_all(std::vector<FittedEntry>& entries, const RunContext& run) {
   parallel_for_each("align", entries.size(), run, [&](std::size_t i) {
     if (has_values(entries[i].status))
@@ -39,8 +32,9 @@ void align_all(std::vector<FittedEntry>& entries, const RunContext& run) {
 // From aligned matrices to the table. At theta = 0 all phi share one lobe; their matrices are made
 // the same bits here.
 void post_process_all(const Grid& grid, const std::vector<FittedEntry>& entries, Table& table,
-                      GenerateReport& report) {
+                      const RunContext& run, GenerateReport& report) {
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
+    run.throw_if_stopped();
     const FittedEntry& entry = entries[flat];
     table.status[flat] = entry.status;
     table.iterations[flat] = static_cast<std::uint16_t>(
@@ -72,7 +66,8 @@ MemoryNeeded memory_needed(const Config& config, const std::vector<bool>& needed
   // those in the journal and in a checkpoint.
   constexpr std::size_t of_value = 5 * (12 * sizeof(float) + 4);
   const auto fits = static_cast<std::size_t>(2 + 2 * (1 + sweep_count(config.fit)));
-  MemoryNeeded memory{config.grid.size() * (of_value + fits * sizeof(FittedEntry)), 0};
+  MemoryNeeded memory{
+      config.grid.size() * (of_value + sizeof(PlannedEntry) + fits * sizeof(FittedEntry)), 0};
   if (config.refine.steps == 0)
     return memory;
   std::vector<bool> present = needed;
@@ -123,10 +118,9 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
   return report;
 }
 
-void integrate_albedos(const Grid& grid, const std::vector<bool>& needed, const RunContext& run,
-                       Table& table) {
+void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
+                       const RunContext& run, Table& table) {
   const AlbedoRule rule;
-  const std::vector<PlannedEntry> plan = plan_by_symmetry(grid, needed);
   parallel_for_each("albedo", plan.size(), run, [&](std::size_t flat) {
     if (plan[flat].representative != flat)
       return;
@@ -187,14 +181,15 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
   table.config = to_toml(config);
   table.generator = generator();
 
-  result.fits = representative_count(plan_by_symmetry(config.grid, needed));
-  result.fits_of_whole_grid = representative_count(plan_by_symmetry(config.grid));
+  const std::vector<PlannedEntry> plan = plan_by_symmetry(config.grid, needed, run);
+  result.fits = representative_count(plan);
+  result.fits_of_whole_grid = EqualLobes(config.grid).count();
   std::vector<FittedEntry> entries =
-      fit_table(config.grid, config.fit, needed, run, nullptr, journal);
+      fit_table(config.grid, config.fit, plan, run, nullptr, journal);
   finish_stage("fit");
   align_all(entries, run);
   finish_stage("align");
-  post_process_all(config.grid, entries, table, result);
+  post_process_all(config.grid, entries, table, run, result);
   finish_stage("post-process");
   table.refined = false;
   if (config.refine.steps > 0 && result.fits > 0) {
@@ -205,7 +200,7 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     table.refined = result.refine->kept;
     finish_stage("refine");
   }
-  integrate_albedos(config.grid, needed, run, table);
+  integrate_albedos(config.grid, plan, run, table);
   finish_stage("albedo");
   return table;
 }

@@ -48,5 +48,17 @@ TEST(SymmetryPlanOfNeeded, RepresentativesOfNeededEntriesAreNeeded) {
   }
 }
 
+TEST(SymmetryPlanOfNeeded, WholeGridsFirstEqualNodeIsKnownWithoutAPlan) {
+  const Grid grid = Grid::paper({3, 4, 3, 5});
+  const EqualLobes equal(grid);
+  const auto plan = plan_by_symmetry(grid);
+  for (std::size_t flat = 0; flat < grid.size(); ++flat)
+    EXPECT_EQ(equal.first_of(flat), plan[flat].representative) << flat;
+  EXPECT_EQ(equal.count(), representative_count(plan));
+  // alpha = 0 has one roughness whatever lambda, which is isotropic, as lambda = 1 is: three lobes
+  // each. The other 2 x 3 have one from above and two of five azimuths.
+  EXPECT_EQ(equal.count(), 3u * 3u + 2u * 3u * 11u);
+}
+
 }  // namespace
 }  // namespace ltc
