@@ -10,12 +10,20 @@
 
 #include "cli/output.h"
 #include "core/error.h"
+#include "core/uninterrupted.h"
 #include "export/checkpoint.h"
 #include "fit/fit_table.h"
 
 namespace ltc::cli {
 
 namespace fs = std::filesystem;
+
+std::string with_way_on(const std::string& message, const fs::path& checkpoint) {
+  std::error_code ignored;
+  return fs::exists(checkpoint, ignored)
+             ? fmt::format("{}; --resume goes on from {}", message, checkpoint.string())
+             : message;
+}
 
 CheckpointKeeper::CheckpointKeeper(const CheckpointTask& task, FitJournal& journal,
                                    Progress& progress)
@@ -33,10 +41,10 @@ void CheckpointKeeper::guard(const std::function<void()>& work) {
     guard_stops(work);
   } catch (const InputError& error) {
     save_if_possible();
-    throw InputError(with_way_on(error.what()));
+    throw InputError(with_way_on(error.what(), task_.file));
   } catch (const IoError& error) {
     save_if_possible();
-    throw IoError(with_way_on(error.what()));
+    throw IoError(with_way_on(error.what(), task_.file));
   }
 }
 
@@ -54,17 +62,13 @@ void CheckpointKeeper::guard_stops(const std::function<void()>& work) {
   try {
     work();
   } catch (const Interrupted&) {
+    const Uninterrupted saved;
     close();  // throws if the stop was asked for here
     if (!exists())
       throw;
     write_if_new();
-    throw Interrupted(with_way_on("interrupted"));
+    throw Interrupted(with_way_on("interrupted", task_.file));
   }
-}
-
-std::string CheckpointKeeper::with_way_on(const std::string& message) const {
-  return exists() ? fmt::format("{}; --resume goes on from {}", message, task_.file.string())
-                  : message;
 }
 
 void CheckpointKeeper::close() {

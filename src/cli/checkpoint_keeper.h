@@ -27,6 +27,9 @@ struct CheckpointTask {
   double seconds = 5;  // between two of them; 0: none
 };
 
+// The message, and that --resume goes on from this file if there is one.
+std::string with_way_on(const std::string& message, const std::filesystem::path& checkpoint);
+
 // One thread of its own writes the file every so many seconds, if there is anything new, and sleeps
 // in between. What it cannot write ends the run at once, while little is lost: it asks `progress`
 // for a stop, and close() throws the reason.
@@ -51,7 +54,6 @@ class CheckpointKeeper {
  private:
   void guard_stops(const std::function<void()>& work);
   void save_if_possible();
-  std::string with_way_on(const std::string& message) const;
   void end_thread();
   void write_until_closed();
   void write_if_new();

@@ -22,6 +22,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/platform.h"
+#include "core/uninterrupted.h"
 #include "export/exr.h"
 #include "export/hdf5.h"
 #include "export/npy.h"
@@ -98,9 +99,10 @@ fs::path checkpoint_of(const Config& config, const fs::path& folder) {
 }
 
 // All or none: an older set of files stands until the new one is on the disk. Until then a stop is
-// still possible.
+// still possible; from then on `taking_places` is set.
 void write_files(const Table& table, const Config& config, const fs::path& folder,
-                 const std::vector<fs::path>& removed, const Progress& progress) {
+                 const std::vector<fs::path>& removed, const Progress& progress,
+                 std::optional<Uninterrupted>& taking_places) {
   const OutputSettings& output = config.output;
   platform::FileSet files;
   progress.throw_if_stopped();
@@ -115,6 +117,7 @@ void write_files(const Table& table, const Config& config, const fs::path& folde
   for (const fs::path& file : removed)
     files.remove(file);
   progress.throw_if_stopped();
+  taking_places.emplace();
   files.commit();
 }
 
@@ -195,6 +198,7 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
   remove_abandoned(report.files, task.file);
   Table table;
   CheckpointKeeper keeper(task, *journal, progress);
+  std::optional<Uninterrupted> until_removed;  // the checkpoint of a table that is written
   keeper.guard([&] {
     table = generate_table(config, work.to_fit, {arguments.threads, &progress}, &report.generate,
                            journal.get(), refine_context(work));
@@ -204,7 +208,7 @@ Table make_files(const Arguments& arguments, const Config& config, const Work& w
       table = extended(*work.existing, table);
     require_any_value(table);
     const Clock::time_point writing_began = Clock::now();
-    write_files(table, config, folder, report.removed, progress);
+    write_files(table, config, folder, report.removed, progress, until_removed);
     report.generate.stage_seconds.emplace_back("write", seconds_since(writing_began));
   });
   keeper.remove();
@@ -242,7 +246,7 @@ void name_commands(const Arguments& arguments, RunReport& report) {
 void generate(const Arguments& arguments, Files& files) {
   const Clock::time_point began = Clock::now();
   ProgressDisplay progress;
-  const StopOnInterrupt stop_on_interrupt(progress);
+  StopOnInterrupt stop_on_interrupt(progress);
 
   const std::string created = creation_time();
   const Config config = arguments.config.load();
@@ -257,6 +261,7 @@ void generate(const Arguments& arguments, Files& files) {
   for (const fs::path& file : report.files)
     files.write("--output", file);
   files.write("--output", checkpoint_of(config, folder));
+  stop_on_interrupt.set_checkpoint(checkpoint_of(config, folder));
 
   const Table table = make_files(arguments, config, work, folder, created, progress, report);
   report.needed = count_true(work.needed);

@@ -14,6 +14,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/help.h"
+#include "cli/interrupt.h"
 #include "cli/output.h"
 #include "core/error.h"
 #include "core/platform.h"
@@ -22,7 +23,13 @@
 namespace ltc::cli {
 namespace {
 
-enum ExitCode { success = 0, failure = 1, bad_input = 2, io_failure = 3, interrupted = 130 };
+enum ExitCode {
+  success = 0,
+  failure = 1,
+  bad_input = 2,
+  io_failure = 3,
+  interrupted = StopOnInterrupt::exit_code
+};
 
 using Arguments = std::span<const char* const>;
 

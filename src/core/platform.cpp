@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <semaphore.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
@@ -17,11 +18,13 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -30,6 +33,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/uninterrupted.h"
 
 namespace ltc::platform {
 namespace {
@@ -78,13 +82,39 @@ bool is_temporary_of(const fs::path& path, std::string_view name) {
   return name.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+// Those that may be there now.
+std::mutex temporaries_mutex;
+std::set<fs::path> temporaries;
+
+void note_temporary(const fs::path& path) {
+  const std::lock_guard lock(temporaries_mutex);
+  temporaries.insert(path);
+}
+
+void remove_temporary(const fs::path& path) {
+  const std::lock_guard lock(temporaries_mutex);
+  ::unlink(path.c_str());
+  temporaries.erase(path);
+}
+
 void (*interrupt_handler)() = nullptr;
 std::atomic<bool> was_interrupted{false};
 
+// Posted for who waits for an interrupt: of all that wakes another thread, a signal handler may do
+// this alone.
+sem_t* interrupt_semaphore() {
+  static sem_t semaphore;
+  static const bool made = ::sem_init(&semaphore, 0, 0) == 0;
+  return made ? &semaphore : nullptr;
+}
+
 extern "C" void handle_signal(int) {
+  const int error = errno;
   was_interrupted = true;
   if (interrupt_handler)
     interrupt_handler();
+  ::sem_post(interrupt_semaphore());
+  errno = error;
 }
 
 // A device or a pipe would be replaced by a file, which is never what is meant.
@@ -216,23 +246,25 @@ std::optional<std::string> in_a_process_apart(const std::function<std::string()>
 
 FileSet::~FileSet() {
   for (const File& file : written_)
-    ::unlink(file.temporary.c_str());
+    remove_temporary(file.temporary);
 }
 
 void FileSet::add(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   require_replaceable(path);
   const File file{temporary_beside(path), path};
+  note_temporary(file.temporary);
   try {
     write(file.temporary);
     flush_to_disk(file.temporary, O_RDONLY, path);
     written_.push_back(file);
   } catch (...) {
-    ::unlink(file.temporary.c_str());
+    remove_temporary(file.temporary);
     throw;
   }
 }
 
 void FileSet::commit() {
+  const Uninterrupted whole;
   std::set<fs::path> folders;
   for (const fs::path& path : removed_)
     if (::unlink(path.c_str()) == 0)
@@ -244,6 +276,7 @@ void FileSet::commit() {
     if (std::rename(file.temporary.c_str(), file.path.c_str()) != 0)
       throw_io("cannot write", file.path, errno);
     folders.insert(folder_of(file.path));
+    remove_temporary(file.temporary);  // which has another name now
     written_.erase(written_.begin());
   }
   for (const fs::path& folder : folders)
@@ -339,6 +372,7 @@ std::string read_up_to(const fs::path& path, std::size_t most_bytes) {
 }
 
 void on_interrupt(void (*handler)()) {
+  interrupt_semaphore();  // made before a handler wants it
   interrupt_handler = handler;
   struct sigaction action {};
   action.sa_handler = handle_signal;
@@ -350,6 +384,24 @@ void on_interrupt(void (*handler)()) {
     if (before.sa_handler != SIG_IGN)  // by nohup, or a shell that works in the background
       ::sigaction(signal, &action, nullptr);
   }
+}
+
+void wait_for_interrupt() {
+  while (::sem_wait(interrupt_semaphore()) != 0 && errno == EINTR) {
+  }
+}
+
+void end_wait_for_interrupt() {
+  ::sem_post(interrupt_semaphore());
+}
+
+void end_process(int exit_code, const std::string& message) {
+  // Kept: no other thread makes one any more.
+  temporaries_mutex.lock();
+  for (const fs::path& temporary : temporaries)
+    ::unlink(temporary.c_str());
+  write_all(STDERR_FILENO, message);
+  std::_Exit(exit_code);
 }
 
 bool standard_error_is_terminal() {

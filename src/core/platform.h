@@ -16,6 +16,8 @@ namespace ltc::platform {
 
 // Files that take their places together, once all of them are written: as long as anything can
 // still fail for want of space, every older file stands as it was.
+//
+// Temporary files are known to end_process() as long as they may be there.
 class FileSet {
  public:
   FileSet() = default;
@@ -88,6 +90,14 @@ std::string read_up_to(const std::filesystem::path& path, std::size_t most_bytes
 // only touch lock-free atomics; a second one ends the process as it would have without the handler.
 // What this process was started to ignore stays ignored.
 void on_interrupt(void (*handler)());
+
+// Waits for an interrupt of which on_interrupt() told, or for end_wait_for_interrupt(). One thread.
+void wait_for_interrupt();
+void end_wait_for_interrupt();
+
+// Ends the process with this exit code, whatever its other threads do: first removes the temporary
+// files of all FileSets and writes `message` to standard error. Nothing else is cleaned up.
+[[noreturn]] void end_process(int exit_code, const std::string& message);
 
 // What a piece of work may use up.
 struct WorkLimits {
