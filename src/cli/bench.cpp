@@ -14,8 +14,8 @@
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/table_input.h"
 #include "core/write_file.h"
-#include "export/reader.h"
 #include "table/entry_text.h"
 
 namespace ltc::cli {
@@ -30,6 +30,7 @@ struct Arguments {
   std::size_t entries = default_entries;
   bool all = false;
   std::string published, reference;  // empty: none
+  std::optional<Layout> layout;      // of both
   std::size_t whole_fits = 0;
   CompareSettings judge;
   std::string json, csv, picture;  // empty: none
@@ -116,16 +117,16 @@ std::string report_text(const FrontierReport& report) {
   return text + (notes.empty() ? "" : "\n" + notes);
 }
 
-std::optional<Table> table_of(const std::string& file) {
-  return file.empty() ? std::nullopt : std::optional<Table>(read_table(file));
+std::optional<Table> table_of(const std::string& file, std::optional<Layout> layout) {
+  return file.empty() ? std::nullopt : std::optional<Table>(read_input(file, layout));
 }
 
 void bench(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
   const Config config = arguments.config.load();
-  const std::optional<Table> published = table_of(arguments.published);
-  const std::optional<Table> reference = table_of(arguments.reference);
+  const std::optional<Table> published = table_of(arguments.published, arguments.layout);
+  const std::optional<Table> reference = table_of(arguments.reference, arguments.layout);
 
   FrontierReport report;
   report.published_file = arguments.published;
@@ -203,6 +204,7 @@ Action declare_bench(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   add_what_options(app, *arguments);
   add_error_options(app, *arguments);
+  add_layout_option(app, arguments->layout);
   add_output_options(app, *arguments);
   return [arguments](Files&) { bench(*arguments); };
 }

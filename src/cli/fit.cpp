@@ -49,7 +49,7 @@ struct Arguments {
   std::string solver, seed, samples;  // empty: the config's
   std::string start;                  // empty: the solver's own
   std::string trace, plot, json;      // empty: none
-  std::optional<Layout> layout;       // of the table of as_in
+  std::optional<Layout> layout;       // of the table of as_in or start
   bool check_gradient = false;
   int threads = processor_count();
 };
@@ -136,12 +136,13 @@ std::string start_table(const std::string& start) {
 
 // M of --start; `entry` is that of the config's grid, where the lobe is one.
 Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const GgxLobe& lobe,
-                            std::optional<std::size_t> entry, std::uint64_t seed) {
+                            std::optional<std::size_t> entry, std::uint64_t seed,
+                            std::optional<Layout> layout) {
   constexpr std::string_view given = "matrix=";
   if (text.starts_with(given))
     return parse_matrix(text, std::string_view(text).substr(given.size()));
   if (text.starts_with(start_from)) {
-    const Table table = read_table(start_table(text));
+    const Table table = read_input(start_table(text), layout);
     Eigen::Matrix3d matrix =
         entry && table.grid == config.grid ? table.matrix_at(*entry) : look_up(table, lobe).matrix;
     if (!matrix.allFinite())
@@ -194,8 +195,9 @@ FitReport run_fit(const Arguments& arguments, const Config& config, const RunCon
   }
   const std::uint64_t seed = entry_seed(config.fit.seed, seed_index);
   if (!arguments.start.empty()) {
-    report.fit = fit_lobe(config, lobe, seed,
-                          parse_start(arguments.start, config, lobe, report.entry, seed), run);
+    report.fit = fit_lobe(
+        config, lobe, seed,
+        parse_start(arguments.start, config, lobe, report.entry, seed, arguments.layout), run);
   } else if (report.entry) {
     const std::vector<bool> needed = needed_with(arguments, config);
     if (!needed[*report.entry])
@@ -278,6 +280,8 @@ void fit(const Arguments& arguments, Files& files) {
   const StopOnInterrupt stop_on_interrupt(progress);
   const RunContext run{arguments.threads, &progress};
   require_one_name(arguments);
+  if (arguments.layout && arguments.as_in.empty() && !arguments.start.starts_with(start_from))
+    throw InputError("--layout needs a table: --as-in TABLE or --start from=TABLE");
   if (arguments.start == start_from)
     throw InputError("--start from=: expected from= and a table's file");
   if (arguments.start.starts_with(start_from))
@@ -356,7 +360,6 @@ Action declare_fit(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   add_lobe_options(app, *arguments);
   add_layout_option(app, arguments->layout);
-  app.get_option("--layout")->needs(app.get_option("--as-in"));
   add_config_options(app, arguments->config);
   add_fit_options(app, *arguments);
   add_output_options(app, *arguments);

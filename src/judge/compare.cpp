@@ -79,6 +79,11 @@ void require_same_grid(const Grid& a, const Grid& b) {
         fmt::format("the tables have different shapes: {} and {}; entries can only be "
                     "compared on the same grid",
                     shape(a), shape(b)));
+  if (a.layout != b.layout)
+    throw InputError(
+        fmt::format("the tables have different axes: those of one hold {}, of the other {}; "
+                    "entries can only be compared on the same grid",
+                    layout_name(a.layout), layout_name(b.layout)));
   throw InputError(
       "the tables have different axes or another alpha_min; entries can only be "
       "compared on the same grid");

@@ -65,9 +65,10 @@ std::string header(const Validation& validation) {
   if (!table.created.empty())
     made += ", " + table.created;
   return fmt::format(
-             "<h1>{}</h1>\n<p class=\"faint\">{} × {} × {} × {} entries over α, λ, θ, φ, "
+             "<h1>{}</h1>\n<p class=\"faint\">{} × {} × {} × {} entries over {}, θ, φ, "
              "storage {}{}</p>\n<p class=\"faint\">{}</p>\n",
              escaped(validation.file), shape[0], shape[1], shape[2], shape[3],
+             table.grid.layout == Layout::alphax_alphay ? "αx, αy" : "α, λ",
              storage_name(table.storage), escaped(made), escaped(kind_text(table))) +
          sentence(validation);
 }

@@ -48,6 +48,35 @@ TEST(LayoutOfArrays, IsToldBySymmetryAndSaid) {
   EXPECT_NE(ratio.out.find("1,2,1,1: alpha 0.333, lambda 0.667, "), std::string::npos) << ratio.out;
 }
 
+TEST(LayoutOfArrays, IsToldOfStartsAndReferencesToo) {
+  const Arrays arrays;
+  const std::vector<std::string> start{"fit",     "--alpha-x", "0.3",   "--alpha-y", "0.2",
+                                       "--theta", "40",        "--phi", "30",        "--start"};
+  const auto fit = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), start.begin(), start.end());
+    return run_ltcfit(more, arrays.folder.path());
+  };
+  EXPECT_NE(fit({"from=both.npy"}).err.find(std::string("both.npy: ") + told), std::string::npos);
+  EXPECT_EQ(fit({"from=both.npy", "--layout", "alpha-lambda"}).err, "");
+  EXPECT_EQ(fit({"from=ratio.npy"}).err, "");
+  const ProgramResult none = fit({"identity", "--layout", "alpha-lambda"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("--layout needs a table"), std::string::npos) << none.err;
+  // Its nodes are not those of any grid that bench fits.
+  std::vector<std::string> bench{"bench", "--entries", "1", "--settings", "default"};
+  for (const char* axis : {"alpha", "lambda", "theta", "phi"}) {
+    bench.push_back("--set");
+    bench.push_back(std::string("table.") + axis + ".nodes=4");
+  }
+  bench.insert(bench.end(), {"--reference", "both.npy"});
+  const ProgramResult refused = run_ltcfit(bench, arrays.folder.path());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find(told), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("alphax-alphay"), std::string::npos) << refused.err;
+  bench.insert(bench.end(), {"--layout", "alpha-lambda"});
+  EXPECT_EQ(run_ltcfit(bench, arrays.folder.path()).exit_code, 0);
+}
+
 TEST(LayoutOfArrays, IsWhatTheOptionSays) {
   const Arrays arrays;
   const ProgramResult both = arrays.entry("both.npy", {"--layout", "alpha-lambda"});
