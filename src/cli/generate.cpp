@@ -12,6 +12,7 @@
 
 #include "cli/checkpoint_keeper.h"
 #include "cli/command.h"
+#include "cli/cost_text.h"
 #include "cli/creation_time.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
@@ -252,6 +253,7 @@ void generate(const Arguments& arguments, Files& files) {
   const Config config = arguments.config.load();
   const Work work = plan_work(arguments, config);
   require_memory(config, work.to_fit, refine_context(work));
+  tell(cost_text(config, cost_of(config, work.to_fit, refine_context(work))));
   const fs::path folder = files.make_folder(arguments.output);
   const platform::FolderLock lock(folder);
   RunReport report;

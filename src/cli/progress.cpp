@@ -14,7 +14,9 @@ namespace ltc::cli {
 namespace {
 
 constexpr std::chrono::milliseconds bar_interval{100};
-constexpr std::chrono::seconds line_interval{10};
+// The first line of a stage comes soon: it tells by the pace of the first units whether the rest is
+// worth the wait.
+constexpr std::chrono::seconds first_line{1}, line_interval{10};
 
 double rate(const StageState& state) {
   return state.seconds > 0 ? static_cast<double>(state.done) / state.seconds : 0;
@@ -92,6 +94,7 @@ void ProgressDisplay::begin_stage(std::string_view name, std::size_t total) {
   stage_ = name;
   total_ = total;
   stage_began_ = Clock::now();
+  next_line_ = stage_began_ + first_line;
   if (!on_terminal_)
     tell(fmt::format("{}: {} to do\n", stage_, total_));
   if (!drawer_.joinable())
@@ -110,9 +113,11 @@ void ProgressDisplay::end_stage() {
 
 void ProgressDisplay::draw_until_closed() {
   std::unique_lock lock(mutex_);
-  const auto interval = on_terminal_ ? std::chrono::milliseconds(bar_interval) : line_interval;
-  while (!wake_.wait_for(lock, interval, [this] { return closed_; }))
-    draw();
+  while (!wake_.wait_for(lock, bar_interval, [this] { return closed_; }))
+    if (on_terminal_ || Clock::now() >= next_line_) {
+      draw();
+      next_line_ = Clock::now() + line_interval;
+    }
 }
 
 void ProgressDisplay::draw() {

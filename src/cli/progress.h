@@ -34,7 +34,7 @@ class ProgressDisplay final : public Progress {
   std::condition_variable wake_;
   std::string stage_;  // empty between stages
   std::size_t total_ = 0;
-  Clock::time_point stage_began_;
+  Clock::time_point stage_began_, next_line_;
   bool bar_visible_ = false;
   bool closed_ = false;
   std::thread drawer_;  // started with the first stage

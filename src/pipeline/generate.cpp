@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -17,6 +18,7 @@
 #include "fit/fit_table.h"
 #include "pipeline/post_process.h"
 #include "postprocess/normalise.h"
+#include "refine/refine_queries.h"
 #include "table/query_range.h"
 
 namespace ltc {
@@ -56,6 +58,14 @@ bool has_values_in(const Table* table, std::size_t flat) {
   return table && has_values(table->status[flat]);
 }
 
+// Which nodes have values once those that are needed are made.
+std::vector<bool> values_behind(const std::vector<bool>& needed, const RefineContext& context) {
+  std::vector<bool> present = needed;
+  for (std::size_t flat = 0; flat < present.size(); ++flat)
+    present[flat] = present[flat] || has_values_in(context.existing, flat);
+  return present;
+}
+
 // What making the table takes of memory, about: its refinement, and the rest.
 struct MemoryNeeded {
   std::size_t table, refinement;
@@ -70,10 +80,8 @@ MemoryNeeded memory_needed(const Config& config, const std::vector<bool>& needed
       config.grid.size() * (of_value + sizeof(PlannedEntry) + fits * sizeof(FittedEntry)), 0};
   if (config.refine.steps == 0)
     return memory;
-  std::vector<bool> present = needed;
-  for (std::size_t flat = 0; flat < present.size(); ++flat)
-    present[flat] = present[flat] || has_values_in(context.existing, flat);
-  memory.refinement = refinement_memory_bytes(config.grid, present, config.refine);
+  memory.refinement =
+      refinement_memory_bytes(config.grid, values_behind(needed, context), config.refine);
   return memory;
 }
 
@@ -137,6 +145,18 @@ void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
 }
 
 }  // namespace
+
+Cost cost_of(const Config& config, const std::vector<bool>& needed, const RefineContext& context) {
+  const MemoryNeeded memory = memory_needed(config, needed, context);
+  Cost cost;
+  const bool whole = std::find(needed.begin(), needed.end(), false) == needed.end();
+  cost.fits = whole ? EqualLobes(config.grid).count()
+                    : representative_count(plan_by_symmetry(config.grid, needed));
+  cost.memory_bytes = memory.table + memory.refinement;
+  if (config.refine.steps > 0)
+    cost.queries = refined_query_count(config.grid, values_behind(needed, context), config.refine);
+  return cost;
+}
 
 // Better now than after hours, and better than to bring down the machine.
 void require_memory(const Config& config, const std::vector<bool>& needed,

@@ -36,6 +36,15 @@ struct RefineContext {
                                     // part in look-ups and stay as they are
 };
 
+// What making a table costs, told before it is made.
+struct Cost {
+  std::size_t fits = 0;
+  std::size_t memory_bytes = 0;  // about
+  std::size_t queries = 0;       // look-ups that nodes are refined on; 0: no refinement
+};
+Cost cost_of(const Config& config, const std::vector<bool>& needed,
+             const RefineContext& context = {});
+
 // Throws InputError, with what is needed and what there is, where making the table would take more
 // memory than is available.
 void require_memory(const Config& config, const std::vector<bool>& needed,
