@@ -111,7 +111,7 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
     movable[flat] = made && !(config.refine.keep_smoothest && alpha <= table.grid.alpha_min);
   }
   const RefineReport report =
-      refine(table.grid, table.storage, present, movable, ranges, config.refine, run, stored);
+      refine({table.grid, table.storage, present}, movable, ranges, config.refine, run, stored);
   if (!report.kept)
     return report;
   for (std::size_t flat = 0; flat < count; ++flat)
@@ -119,7 +119,7 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
       table.set_stored(flat, normalise(stored[flat]));
   for (std::size_t flat = 0; flat < count; ++flat)
     stored[flat] = table.stored_at(flat);
-  const std::vector<double> losses = node_losses(table.grid, table.storage, movable, stored, run);
+  const std::vector<double> losses = node_losses({table.grid, table.storage, movable}, stored, run);
   for (std::size_t flat = 0; flat < count; ++flat)
     if (movable[flat])
       table.sw_loss[flat] = static_cast<float>(losses[flat]);

@@ -58,15 +58,15 @@ bool complete(const Interpolation& corners, const std::vector<bool>& has_values)
 
 // The lobes that a table can be asked for, cell by cell: sorted by the cell's first node, which
 // tells the others, and within a cell as they came.
-std::vector<std::size_t> ordered_by_cell(const Grid& grid, const std::vector<bool>& has_values,
-                                         const std::vector<GgxLobe>& lobes,
+std::vector<std::size_t> ordered_by_cell(const TableNodes& nodes, const std::vector<GgxLobe>& lobes,
                                          const Reduction& reduction, const RunContext& run) {
+  const Grid& grid = nodes.grid;
   const std::size_t left_out = grid.size();
   std::vector<std::size_t> first_node(lobes.size()), begin(grid.size() + 1);
   for (std::size_t i = 0; i < lobes.size(); ++i) {
     run.throw_if_stopped();
     const Interpolation corners = interpolation(grid, reduction.fold(lobes[i]).lobe);
-    const bool asked = reduction.covers(lobes[i]) && complete(corners, has_values);
+    const bool asked = reduction.covers(lobes[i]) && complete(corners, nodes.has_values);
     first_node[i] = asked ? corners.nodes[0] : left_out;
     if (asked)
       ++begin[corners.nodes[0] + 1];
@@ -81,18 +81,17 @@ std::vector<std::size_t> ordered_by_cell(const Grid& grid, const std::vector<boo
 
 }  // namespace
 
-QuerySystem::QuerySystem(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
-                         const std::vector<GgxLobe>& lobes, const std::vector<double>& weights,
+QuerySystem::QuerySystem(const TableNodes& nodes, const WeightedLobes& asked,
                          const QuerySampling& sampling, double shift, const RunContext& run)
-    : storage_(storage), node_count_(grid.size()) {
+    : storage_(nodes.storage), node_count_(nodes.grid.size()) {
   make_sets(sampling, shift);
-  const Reduction reduction(grid);
-  const std::vector<std::size_t> order = ordered_by_cell(grid, has_values, lobes, reduction, run);
+  const Reduction reduction(nodes.grid);
+  const std::vector<std::size_t> order = ordered_by_cell(nodes, asked.lobes, reduction, run);
   corners_of_node_.resize(node_count_);
   queries_.reserve(order.size());
   for (const std::size_t i : order) {
-    const GgxLobe folded = reduction.fold(lobes[i]).lobe;
-    const Interpolation corners = interpolation(grid, folded);
+    const GgxLobe folded = reduction.fold(asked.lobes[i]).lobe;
+    const Interpolation corners = interpolation(nodes.grid, folded);
     if (cells_.empty() || cells_.back().nodes != corners.nodes) {
       run.throw_if_stopped();
       for (std::size_t corner = 0; corner < 16; ++corner)
@@ -100,7 +99,7 @@ QuerySystem::QuerySystem(const Grid& grid, Storage storage, const std::vector<bo
       cells_.push_back({corners.nodes, queries_.size(), queries_.size()});
     }
     // Neighbours in a cell are measured with different sets.
-    queries_.push_back({folded, corners.weights, weights[i], queries_.size() % set_count});
+    queries_.push_back({folded, corners.weights, asked.weights[i], queries_.size() % set_count});
     cells_.back().last = queries_.size();
   }
   models_.resize(queries_.size());

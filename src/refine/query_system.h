@@ -19,6 +19,7 @@
 #include "core/run_context.h"
 #include "fit/quantile_model.h"
 #include "refine/node_space.h"
+#include "refine/refine_queries.h"
 #include "refine/refine_settings.h"
 #include "table/lookup.h"
 #include "table/storage.h"
@@ -27,12 +28,11 @@ namespace ltc {
 
 class QuerySystem {
  public:
-  // The look-ups of `lobes` with weights c_p. Those beyond the axes, which no table serves, and
+  // The look-ups of the lobes with weights c_p. Those beyond the axes, which no table serves, and
   // those that need a node without values are left out. Systems of different `shift` in [0, 1)
   // share no samples.
-  QuerySystem(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
-              const std::vector<GgxLobe>& lobes, const std::vector<double>& weights,
-              const QuerySampling& sampling, double shift, const RunContext& run = {});
+  QuerySystem(const TableNodes& nodes, const WeightedLobes& asked, const QuerySampling& sampling,
+              double shift, const RunContext& run = {});
 
   // What so many queries in so many cells need, about, and while they are multiplied with.
   static std::size_t memory_bytes(const QuerySampling& sampling, std::size_t queries,

@@ -9,7 +9,6 @@
 
 #include "core/parallel.h"
 #include "refine/query_system.h"
-#include "refine/refine_queries.h"
 #include "refine/refine_step.h"
 
 namespace ltc {
@@ -66,18 +65,17 @@ std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& h
          (refined_on + held_out) * (sizeof(GgxLobe) + sizeof(double)) + nodes * of_node;
 }
 
-RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
-                    const std::vector<bool>& movable, const std::vector<QueryRange>& asked,
-                    const RefineSettings& settings, const RunContext& run,
-                    std::vector<Eigen::Matrix3d>& stored) {
-  const WeightedLobes refined_on = queries_to_refine_on(grid, has_values, asked, settings);
-  const WeightedLobes held_out = queries_held_out(grid, asked, settings, refined_on.lobes.size());
+RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
+                    const std::vector<QueryRange>& asked, const RefineSettings& settings,
+                    const RunContext& run, std::vector<Eigen::Matrix3d>& stored) {
+  const WeightedLobes refined_on =
+      queries_to_refine_on(nodes.grid, nodes.has_values, asked, settings);
+  const WeightedLobes held_out =
+      queries_held_out(nodes.grid, asked, settings, refined_on.lobes.size());
   const Stage stage(run, "refine",
                     evaluations(settings) * (refined_on.lobes.size() + held_out.lobes.size()));
-  QuerySystem queries(grid, storage, has_values, refined_on.lobes, refined_on.weights,
-                      settings.sampling, refined_shift, run);
-  QuerySystem judge(grid, storage, has_values, held_out.lobes, held_out.weights, settings.sampling,
-                    held_out_shift, run);
+  QuerySystem queries(nodes, refined_on, settings.sampling, refined_shift, run);
+  QuerySystem judge(nodes, held_out, settings.sampling, held_out_shift, run);
   RefineReport report;
   report.queries = queries.size();
   if (judge.size() == 0)
@@ -85,7 +83,7 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
   // What is left out needs no work.
   run.advance(evaluations(settings) *
               (refined_on.lobes.size() - queries.size() + held_out.lobes.size() - judge.size()));
-  const NodeSpace space(grid, movable);
+  const NodeSpace space(nodes.grid, movable);
   std::vector<Eigen::Matrix3d> current = stored;
   space.symmetrise(current);
   double objective = queries.evaluate(current, run);
@@ -94,7 +92,7 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
   const double judged =
       static_cast<double>(judge.size()) / static_cast<double>(held_out.lobes.size());
   report.loss_before = report.loss_after = judge.evaluate(stored, run) / judged;
-  const std::vector<SingularityBound> bounds = bounds_at(grid, storage, current);
+  const std::vector<SingularityBound> bounds = bounds_at(nodes.grid, nodes.storage, current);
   double damping = settings.damping;
   while (report.steps < settings.steps) {
     ++report.steps;
@@ -123,9 +121,9 @@ RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& 
   return report;
 }
 
-std::vector<double> node_losses(const Grid& grid, Storage storage,
-                                const std::vector<bool>& has_values,
-                                const std::vector<Eigen::Matrix3d>& stored, const RunContext& run) {
+std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Eigen::Matrix3d>& stored,
+                                const RunContext& run) {
+  const Grid& grid = nodes.grid;
   const CosineSet cosines = make_cosine_set(2048);
   const TargetLattice lattice = make_target_lattice(4096, 0.3);
   const std::vector<Eigen::Vector3f> directions = in_float(fibonacci_directions(32));
@@ -140,14 +138,14 @@ std::vector<double> node_losses(const Grid& grid, Storage storage,
   parallel_for_each<State>(
       "node losses", grid.size(), run, [] { return State(); },
       [&](std::size_t flat, State& state) {
-        if (!has_values[flat])
+        if (!nodes.has_values[flat])
           return;
         const LobeFrame frame(grid.lobe(grid.node(flat)));
         sample_weighted_target(frame, lattice, state.target);
         state.quantiles.build(state.target, directions, bins, state.workspace.xi,
                               state.workspace.bins);
         const Eigen::Matrix3d p =
-            frame.from_matrix(matrix_from_stored(storage, stored[flat], frame.lobe));
+            frame.from_matrix(matrix_from_stored(nodes.storage, stored[flat], frame.lobe));
         evaluate_model(frame, p / p.col(2).norm(), cosines, state.quantiles, 1,
                        state.quantiles.spread(), state.workspace, state.value);
         losses[flat] = state.value.loss;

@@ -21,9 +21,7 @@
 #include <vector>
 
 #include "core/run_context.h"
-#include "refine/refine_settings.h"
-#include "table/grid.h"
-#include "table/storage.h"
+#include "refine/refine_queries.h"
 
 namespace ltc {
 
@@ -35,14 +33,13 @@ struct RefineReport {
   bool kept = false;  // false: the table is as it came
 };
 
-// Refines `stored`, one S a node of `grid` with third column of unit length and positive
+// Refines `stored`, one S a node of the grid with third column of unit length and positive
 // determinant. Queries are drawn from `asked` in turn, at least one range; those beyond the axes
 // and those that need a node without values are left out. Nodes that are not `movable` stay as they
 // are. Throws Interrupted when a stop is asked for. The same bits for any number of threads.
-RefineReport refine(const Grid& grid, Storage storage, const std::vector<bool>& has_values,
-                    const std::vector<bool>& movable, const std::vector<QueryRange>& asked,
-                    const RefineSettings& settings, const RunContext& run,
-                    std::vector<Eigen::Matrix3d>& stored);
+RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
+                    const std::vector<QueryRange>& asked, const RefineSettings& settings,
+                    const RunContext& run, std::vector<Eigen::Matrix3d>& stored);
 
 // What refine() takes of memory, about.
 std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& has_values,
@@ -51,8 +48,7 @@ std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& h
 // The sliced-Wasserstein loss of every node's own lobe at `stored`, as the solvers measure it (2048
 // samples, 32 directions); NaN where a node has no values.
 // Throws Interrupted.
-std::vector<double> node_losses(const Grid& grid, Storage storage,
-                                const std::vector<bool>& has_values,
-                                const std::vector<Eigen::Matrix3d>& stored, const RunContext& run);
+std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Eigen::Matrix3d>& stored,
+                                const RunContext& run);
 
 }  // namespace ltc

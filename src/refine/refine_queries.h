@@ -8,8 +8,16 @@
 
 #include "refine/refine_settings.h"
 #include "table/grid.h"
+#include "table/storage.h"
 
 namespace ltc {
+
+// The nodes that look-ups of a table go to.
+struct TableNodes {
+  const Grid& grid;
+  Storage storage;
+  const std::vector<bool>& has_values;
+};
 
 struct WeightedLobes {
   std::vector<GgxLobe> lobes;

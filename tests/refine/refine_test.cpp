@@ -206,10 +206,10 @@ TEST(NodeSpace, StepsAreShortenedBeforeAColumnVanishes) {
 
 struct System {
   explicit System(const Grid& grid, Storage storage = Storage::matrix)
-      : lobes(random_queries({0.4, 1, 0.2, 1, 0.1, 1}, 60, 5, 1e-4)),
-        queries(grid, storage, all_of(grid), lobes, std::vector<double>(60, 1.0 / 60),
-                {1024, 16, 4096}, 0.0) {}
-  std::vector<GgxLobe> lobes;
+      : asked{random_queries({0.4, 1, 0.2, 1, 0.1, 1}, 60, 5, 1e-4),
+              std::vector<double>(60, 1.0 / 60)},
+        queries({grid, storage, all_of(grid)}, asked, {1024, 16, 4096}, 0.0) {}
+  WeightedLobes asked;
   QuerySystem queries;
 };
 
@@ -275,8 +275,7 @@ TEST(QuerySystem, LeavesOutWhatNeedsANodeWithoutValues) {
   std::vector<bool> present = all_of(grid);
   present[grid.flat({2, 2, 2, 2})] = false;
   const System whole(grid);
-  const QuerySystem part(grid, Storage::matrix, present, whole.lobes,
-                         std::vector<double>(60, 1.0 / 60), {1024, 16, 4096}, 0.0);
+  const QuerySystem part({grid, Storage::matrix, present}, whole.asked, {1024, 16, 4096}, 0.0);
   EXPECT_LT(part.size(), whole.queries.size());
   EXPECT_GT(part.size(), 30u);
   EXPECT_EQ(whole.queries.size(), 60u);
@@ -322,7 +321,7 @@ RefineSettings quick_settings() {
 
 RefineReport refined(const RefineSettings& settings, int threads, const Grid& grid,
                      std::vector<Eigen::Matrix3d>& stored) {
-  return refine(grid, Storage::matrix, all_of(grid), all_of(grid), {settings.range}, settings,
+  return refine({grid, Storage::matrix, all_of(grid)}, all_of(grid), {settings.range}, settings,
                 {threads}, stored);
 }
 
@@ -376,11 +375,11 @@ TEST(Refine, NodeLossesAreThoseOfTheNodes) {
   const std::vector<Eigen::Matrix3d> stored = matrices(grid);
   std::vector<bool> present = all_of(grid);
   present[5] = false;
-  const std::vector<double> losses = node_losses(grid, Storage::matrix, present, stored, {2});
+  const std::vector<double> losses = node_losses({grid, Storage::matrix, present}, stored, {2});
   EXPECT_TRUE(std::isnan(losses[5]));
   std::vector<Eigen::Matrix3d> worse = stored;
   worse[7].col(2) = Eigen::Vector3d(0.6, 0, 0.8);
-  const std::vector<double> other = node_losses(grid, Storage::matrix, present, worse, {1});
+  const std::vector<double> other = node_losses({grid, Storage::matrix, present}, worse, {1});
   EXPECT_EQ(other[6], losses[6]);
   EXPECT_GT(other[7], 1.1 * losses[7]);
 }
