@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 #include "judge/shader_inverse.h"
 #include "table/lookup.h"
 #include "table/queries.h"

@@ -31,7 +31,8 @@ Config to_config(const std::optional<std::filesystem::path>& file, const py::dic
 // Where nobody watches, still somebody presses Ctrl-C: Python's handler is asked between steps, and
 // what it raises ends the work.
 Run to_run(int threads, const py::object& progress) {
-  return {threads, [progress](std::string_view stage, std::size_t done, std::size_t total) {
+  return {threads,
+          [progress](std::string_view stage, std::size_t done, std::size_t total) {
             const py::gil_scoped_acquire locked;
             if (PyErr_CheckSignals() != 0)
               throw py::error_already_set();
@@ -39,6 +40,11 @@ Run to_run(int threads, const py::object& progress) {
               return true;
             const py::object goes_on = progress(stage, done, total);
             return goes_on.is_none() || goes_on.cast<bool>();
+          },
+          [](const std::string& line) {
+            const py::gil_scoped_acquire locked;
+            if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0)
+              throw py::error_already_set();
           }};
 }
 
@@ -108,13 +114,13 @@ void add_table(py::module_& module) {
           [](const std::filesystem::path& file) {
             return without_lock([&] { return Table::read(file); });
           },
-          "Reads .h5, .npy or .0.exr.", "file"_a)
+          "Reads a table's file; its name says of which format it is.", "file"_a)
       .def(
           "write",
           [](const Table& table, const std::filesystem::path& file, bool half) {
             without_lock([&] { table.write(file, half); });
           },
-          "Writes .h5, .npy or .0.exr, whole or not at all.", "file"_a, py::kw_only(),
+          "Writes the format that the name ends in, whole or not at all.", "file"_a, py::kw_only(),
           "half"_a = false)
       .def_property_readonly("shape", &Table::shape)
       .def_property_readonly("axes", &axes, "the nodes' values by the axis' name")
@@ -130,16 +136,20 @@ void add_table(py::module_& module) {
            "alpha_x"_a, "alpha_y"_a, "theta"_a, "phi"_a);
   module.def(
       "generate",
-      [](const std::optional<std::filesystem::path>& config, const py::dict& set, int threads,
+      [](const std::optional<std::filesystem::path>& config, const py::dict& set,
+         const std::optional<std::filesystem::path>& scene,
+         const std::optional<std::filesystem::path>& extend, int threads,
          const py::object& progress) {
         const Config settings = to_config(config, set);
         const Run run = to_run(threads, progress);
-        return without_lock([&] { return generate(settings, run); });
+        const Part part{scene.value_or(""), extend.value_or("")};
+        return without_lock([&] { return generate(settings, run, part); });
       },
-      "Makes the table of a config; `set` changes keys, as ltcfit --set does. `progress(stage, "
+      "Makes the table of a config; `set` changes keys, as ltcfit --set does. Of it, only what the "
+      "materials of `scene` need, and only what the table file `extend` lacks. `progress(stage, "
       "done, total)` may return False to stop.",
-      "config"_a = py::none(), py::kw_only(), "set"_a = py::dict(), "threads"_a = 0,
-      "progress"_a = py::none());
+      "config"_a = py::none(), py::kw_only(), "set"_a = py::dict(), "scene"_a = py::none(),
+      "extend"_a = py::none(), "threads"_a = 0, "progress"_a = py::none());
 }
 
 void add_validate(py::module_& module) {

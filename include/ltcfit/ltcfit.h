@@ -68,6 +68,15 @@ struct Run {
   // and in all; false asks for a stop, which throws Interrupted. What it throws stops too and comes
   // through. Empty: nobody watches.
   std::function<bool(std::string_view stage, std::size_t done, std::size_t total)> progress;
+  // Hears, on the thread that works, what a user should know and is no error, a line at a time.
+  // Empty: nobody does.
+  std::function<void(const std::string& line)> warn = nullptr;
+};
+
+// What of a table is made; all of it where this says nothing.
+struct Part {
+  std::filesystem::path scene;   // only what the materials of this scene need (docs/scenes.md)
+  std::filesystem::path extend;  // only what this table's .h5 lacks; the rest is kept bit for bit
 };
 
 struct FittedLobe {
@@ -83,9 +92,10 @@ FittedLobe fit(const Lobe& lobe, const Config& config = {});
 // A table over larger roughness alpha, ratio lambda, theta and phi. Immutable; copies share it.
 class Table {
  public:
-  // .h5, .npy, or one of .0.exr, .1.exr, .2.exr, which brings in the others.
+  // The name's ending says of which format it is (docs/files.md); of a set of textures one file,
+  // .0.exr, brings in the others.
   static Table read(const std::filesystem::path& file);
-  // By suffix as above; an older file stands until the new one is whole. `half`: 16-bit textures.
+  // By the ending too; an older file stands until the new one is whole. `half`: 16-bit textures.
   void write(const std::filesystem::path& file, bool half = false) const;
 
   // Nodes along alpha, lambda, theta, phi; values are in this C order, phi fastest.
@@ -111,12 +121,12 @@ class Table {
   explicit Table(ltc::Table table, bool has_albedo, bool has_loss);
   struct Data;
   std::shared_ptr<const Data> data_;
-  friend Table generate(const Config&, const Run&);
+  friend Table generate(const Config&, const Run&, const Part&);
   friend Validation validate(const Table&, const Config&, bool, const Run&);
 };
 
 // The table of a config, its [output] section aside.
-Table generate(const Config& config = {}, const Run& run = {});
+Table generate(const Config& config = {}, const Run& run = {}, const Part& part = {});
 
 // One property that every sound table has (docs/validation.md).
 struct Check {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "export/npy.h"
+#include "export/format.h"
 
 namespace ltc::cli {
 namespace {
@@ -12,17 +12,12 @@ namespace {
 // Two cores make so many in some ten seconds with the default solver.
 constexpr std::size_t most_quick_fits = 10000;
 
-// Of an entry in each kind of file: HDF5 has nine matrix values, two albedos, a loss, a status and
-// the steps; EXR, uncompressed, three images of four channels; NPY the matrix alone.
+// Uncompressed.
 std::size_t file_bytes(const Config& config) {
-  const OutputSettings& output = config.output;
   std::size_t bytes = 0;
-  if (output.hdf5)
-    bytes += 12 * 4 + 3;
-  if (output.exr)
-    bytes += 12 * (output.exr_half ? 2 : 4);
-  if (output.npy && npy_can_hold(config.grid))
-    bytes += 9 * 4;
+  for (const Format& format : formats())
+    if (format.is_written(config))
+      bytes += format.entry_bytes / (format.half && config.output.exr_half ? 2 : 1);
   return bytes * config.grid.size();
 }
 

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/platform.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 
 namespace ltc::cli {
 namespace {

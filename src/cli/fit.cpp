@@ -14,7 +14,6 @@
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/roughness_options.h"
-#include "cli/scene_file.h"
 #include "cli/stored_report.h"
 #include "cli/table_input.h"
 #include "core/angle.h"
@@ -23,7 +22,7 @@
 #include "core/platform.h"
 #include "core/progress.h"
 #include "core/write_file.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 #include "fit/symmetry_plan.h"
 #include "report/lobe_picture.h"
 #include "scene/coverage.h"
@@ -31,13 +30,6 @@
 
 namespace ltc::cli {
 namespace {
-
-// One lobe is done before a bar would be read; only the wish to stop matters.
-class StopOnly final : public Progress {
- public:
-  void begin_stage(std::string_view, std::size_t) override { reset_done(); }
-  void end_stage() override {}
-};
 
 struct Arguments {
   ConfigArguments config;
@@ -156,7 +148,7 @@ Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const
     if (text == start_name(kind))
       return starting_matrix(kind, lobe, seed);
   throw InputError(
-      fmt::format("--start {}: expected first-order, moments, identity, random, from=TABLE.h5 or "
+      fmt::format("--start {}: expected first-order, moments, identity, random, from=TABLE or "
                   "matrix=NINE,NUMBERS",
                   shell_quoted(text)));
 }
@@ -164,11 +156,14 @@ Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const
 // Which entries are made with the one that is asked for: those of the scene, or those of the table
 // whose config is taken.
 std::vector<bool> needed_with(const Arguments& arguments, const Config& config) {
-  if (!arguments.scene.empty())
-    return needed_entries(load_scene_and_warn(arguments.scene), config.grid);
+  if (!arguments.scene.empty()) {
+    const Scene scene = load_scene(arguments.scene);
+    std::ranges::for_each(scene.warnings, warn);
+    return needed_entries(scene, config.grid);
+  }
   std::vector<bool> needed(config.grid.size(), true);
   const std::optional<std::filesystem::path> file = arguments.config.path();
-  if (!file || file->extension() != ".h5")
+  if (!file || !is_whole_table(*file))
     return needed;
   const Table table = read_table(*file);
   for (std::size_t flat = 0; table.grid == config.grid && flat < needed.size(); ++flat)
@@ -276,7 +271,7 @@ void show_fit(const Arguments& arguments, const RunContext& run) {
 }
 
 void fit(const Arguments& arguments, Files& files) {
-  StopOnly progress;
+  StopOnly progress;  // one lobe is done before a bar would be read
   const StopOnInterrupt stop_on_interrupt(progress);
   const RunContext run{arguments.threads, &progress};
   require_one_name(arguments);
@@ -301,8 +296,9 @@ void add_lobe_options(CLI::App& app, Arguments& arguments) {
       ->group(group);
   add_input_option(
       app, "--as-in", arguments.as_in,
-      "fit no entry: show what this table (.h5, .npy or .0.exr) holds for the entry or "
-      "gives for the lobe, and what a fit of that very lobe would [none]")
+      fmt::format("fit no entry: show what this table ({}) holds for the entry or gives for the "
+                  "lobe, and what a fit of that very lobe would [none]",
+                  endings_text()))
       ->group(group);
   add_input_option(app, "--scene", arguments.scene, "the scene that the table was made for [none]")
       ->group(group);
@@ -336,7 +332,7 @@ void add_fit_options(CLI::App& app, Arguments& arguments) {
       ->option_text("N")
       ->group(group);
   app.add_option("--start", arguments.start,
-                 "first-order, moments, identity, random, from=TABLE.h5, or matrix=M00,M01,... of "
+                 "first-order, moments, identity, random, from=TABLE, or matrix=M00,M01,... of "
                  "nine numbers [the solver's own]")
       ->option_text("START")
       ->group(group);

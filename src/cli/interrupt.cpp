@@ -7,9 +7,9 @@
 #include <chrono>
 #include <string>
 
-#include "cli/checkpoint_keeper.h"
 #include "cli/output.h"
 #include "core/platform.h"
+#include "pipeline/checkpoint_keeper.h"
 
 namespace ltc::cli {
 namespace {
@@ -81,8 +81,8 @@ void StopOnInterrupt::end_process() {
   const std::lock_guard lock(mutex_);
   platform::end_process(
       exit_code,
-      fmt::format("ltcfit: {}\n",
-                  one_line(with_way_on("interrupted, and ended in mid-work", checkpoint_))));
+      fmt::format("ltcfit: {}\n", one_line(with_way_on("interrupted, and ended in mid-work",
+                                                       checkpoint_, "--resume"))));
 }
 
 }  // namespace ltc::cli

@@ -11,7 +11,7 @@
 #include "cli/output.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "export/config_file.h"
+#include "export/table_file.h"
 
 namespace ltc::cli {
 namespace {
@@ -87,7 +87,7 @@ CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::strin
 
 void add_table_argument(CLI::App& app, const std::string& name, std::string& file,
                         const std::string& what) {
-  add_input_option(app, name, file, what + ", .h5, .npy or .0.exr")->required();
+  add_input_option(app, name, file, what + ", " + endings_text())->required();
 }
 
 CLI::Option* add_output_option(CLI::App& app, const std::string& name, std::string& file,
@@ -150,7 +150,13 @@ std::string ConfigArguments::as_text() const {
 }
 
 void add_config_options(CLI::App& app, ConfigArguments& arguments, const ConfigHelp& help) {
-  add_input_option(app, "-c,--config", arguments.file, help.file)->group(help.group);
+  const std::string file =
+      help.file ? help.file
+                : fmt::format(
+                      "TOML file that says what differs from the defaults, or a table's {} "
+                      "[none]",
+                      endings_text(keeps_fits));
+  add_input_option(app, "-c,--config", arguments.file, file)->group(help.group);
   app.add_option(
          "-s,--set", arguments.overrides,
          fmt::format("change one key of the config, for example {}; can be repeated", help.example))

@@ -81,7 +81,7 @@ struct ConfigArguments {
 
 // How the help describes them.
 struct ConfigHelp {
-  const char* file = "TOML file that says what differs from the defaults, or a table's .h5 [none]";
+  const char* file = nullptr;  // null: a config of generate, or a table with one
   const char* example = "fit.gauss_newton.samples=4096";
   const char* group = "What to fit";
 };

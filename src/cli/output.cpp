@@ -41,6 +41,10 @@ void tell(std::string_view text) {
   std::fflush(stderr);
 }
 
+void warn(const std::string& line) {
+  tell(fmt::format("ltcfit: warning: {}\n", one_line(line)));
+}
+
 std::string one_line(std::string_view text) {
   std::string line;
   for (const char c : text)

@@ -21,6 +21,9 @@ void print(std::string_view text);
 void print_results(const std::string& json_file, const std::function<std::string()>& text,
                    const std::function<std::string()>& json);
 
+// The line as a warning on standard error.
+void warn(const std::string& line);
+
 // Writes to standard error, if that takes it: what is told there is worth no failure.
 void tell(std::string_view text);
 

@@ -24,7 +24,7 @@
 #include "core/parallel.h"
 #include "core/version.h"
 #include "core/write_file.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 #include "render/image_exr.h"
 #include "render/missing_albedo.h"
 

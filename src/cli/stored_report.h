@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "export/reader.h"
+#include "export/format.h"
 #include "picture/text.h"
 #include "pipeline/stored_lobe.h"
 

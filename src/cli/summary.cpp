@@ -42,10 +42,11 @@ std::string loss_text(const TableSummary& summary) {
 }
 
 // What a scene, a table to extend and a checkpoint have spared; nothing where there was none.
-std::string scene_text(const Table& table, const RunReport& report) {
+std::string scene_text(const RunReport& report) {
   std::string text;
-  if (report.needed < table.grid.size())
-    text += fmt::format("scene    {} of {} entries needed\n", report.needed, table.grid.size());
+  const std::size_t entries = report.table.grid.size();
+  if (report.needed < entries)
+    text += fmt::format("scene    {} of {} entries needed\n", report.needed, entries);
   if (report.extends)
     text += fmt::format("extended {} entries added, the others kept\n", report.added);
   if (report.resumed > 0)
@@ -94,42 +95,44 @@ std::string refine_text(const GenerateReport& made) {
       report.steps, report.queries, report.loss_after, report.loss_before);
 }
 
-std::string worst_text(const Table& table, const TableSummary& summary, const RunReport& report) {
+std::string worst_text(const Table& table, const TableSummary& summary,
+                       const EntryCommands& commands) {
   std::string text;
   const auto add = [&](const char* what, const std::string& command, std::size_t flat) {
     if (!command.empty())
       text += fmt::format("           {}{} {}\n", what, command, entry_text(table.grid, flat));
   };
-  const bool both = !report.fit_command.empty() && !report.stored_command.empty();
+  const bool both = !commands.fit.empty() && !commands.stored.empty();
   for (const std::size_t flat : summary.worst) {
     text += fmt::format("{} {:.4e}  {}\n", text.empty() ? "worst   " : "        ",
                         table.sw_loss[flat], lobe_text(table.grid, flat));
-    add(both ? "in the table:      " : "", report.stored_command, flat);
-    add(both ? "before refinement: " : "", report.fit_command, flat);
+    add(both ? "in the table:      " : "", commands.stored, flat);
+    add(both ? "before refinement: " : "", commands.fit, flat);
   }
   return text;
 }
 
 }  // namespace
 
-std::string summary_text(const Table& table, const RunReport& report) {
+std::string summary_text(const RunReport& report, const EntryCommands& commands) {
+  const Table& table = report.table;
   const TableSummary summary = summarize(table, worst_count);
   std::string text = time_text(report);
   text += fmt::format("memory   {:.0f} MB at most\n",
                       static_cast<double>(report.peak_memory_bytes) / 1e6);
   text += entries_text(summary);
-  text += scene_text(table, report);
+  text += scene_text(report);
   text += refine_text(report.generate) + range_text(report.generate);
   text += azimuth_text(table.grid);
   text += loss_text(summary);
   text += fmt::format("symmetry largest value zeroed {:.1e}, at entry {}\n",
                       report.generate.largest_zeroed,
                       entry_text(table.grid, report.generate.largest_zeroed_entry));
-  text += worst_text(table, summary, report);
+  text += worst_text(table, summary, commands);
   if (!report.half.empty())
     text += fmt::format("half     {}\n", report.half);
-  if (report.npy_left_out)
-    text += "no NPY   it holds the paper's grid only\n";
+  for (const auto& [format, why] : report.left_out)
+    text += fmt::format("{:<8} it {}\n", "no " + format, why);
   for (const std::filesystem::path& file : report.files)
     text += fmt::format("wrote    {}\n", file.string());
   for (const std::filesystem::path& file : report.removed)

@@ -43,7 +43,8 @@ Json refine_json(const GenerateReport& made) {
 
 }  // namespace
 
-std::string summary_json(const Table& table, const RunReport& report) {
+std::string summary_json(const RunReport& report) {
+  const Table& table = report.table;
   const TableSummary summary = summarize(table, worst_count);
   const GenerateReport& made = report.generate;
   Json json;

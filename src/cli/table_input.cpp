@@ -8,7 +8,7 @@
 
 #include "cli/options.h"
 #include "cli/output.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 
 namespace ltc::cli {
 
@@ -19,8 +19,10 @@ void add_layout_option(CLI::App& app, std::optional<Layout>& layout) {
   };
   CLI::Option* const option = app.add_option_function<std::string>(
       "--layout", set,
-      "what the first two axes of an .npy hold: alpha-lambda or alphax-alphay [told apart by the "
-      "symmetry of alpha_x and alpha_y]");
+      fmt::format(
+          "what the first two axes of an {} hold: alpha-lambda or alphax-alphay [told apart "
+          "by the symmetry of alpha_x and alpha_y]",
+          endings_text([](const Format& format) { return format.without_axes; })));
   allow_names(option, {std::string(layout_name(Layout::alpha_lambda)),
                        std::string(layout_name(Layout::alphax_alphay))})
       ->option_text("LAYOUT")

@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/write_file.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 #include "judge/validate_settings.h"
 #include "report/validation_page.h"
 

@@ -7,9 +7,15 @@
 #include <cstddef>
 #include <string_view>
 
-#include "table/grid.h"
+#include "export/format.h"
 
-namespace ltc::exr_layout {
+namespace ltc {
+
+// Every entry counts as fitted, its loss is NaN, its steps 0, precision `half` where a channel is;
+// brdf, seed, config, generator and created are empty.
+Table read_exr(const TableFiles& files, std::optional<Layout> layout);
+
+namespace exr_layout {
 
 inline constexpr int version = 1;  // of ltc:format_version
 inline constexpr int files = 3;
@@ -41,4 +47,6 @@ inline std::size_t pixel(const Grid& grid, std::size_t flat) {
   return y * atlas_size(grid).width + x;
 }
 
-}  // namespace ltc::exr_layout
+}  // namespace exr_layout
+
+}  // namespace ltc

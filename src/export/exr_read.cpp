@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
+// Tables as three OpenEXR images: reading.
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -19,7 +20,6 @@
 
 #include "core/error.h"
 #include "export/consistency.h"
-#include "export/exr.h"
 #include "export/exr_header.h"
 #include "export/exr_layout.h"
 #include "export/file.h"
@@ -97,8 +97,8 @@ bool has_half_channel(const Imf::Header& header) {
   return false;
 }
 
-void require_channels(const Imf::Header& header, int index, const fs::path& path) {
-  const auto expected = channel_contents[static_cast<std::size_t>(index)];
+void require_channels(const Imf::Header& header, std::size_t index, const fs::path& path) {
+  const auto expected = channel_contents[index];
   const auto found = attribute<Imf::StringAttribute>(header, "ltc:channels", path);
   if (found != expected)
     refuse(path, fmt::format("ltc:channels is \"{}\"; expected: \"{}\"", found, expected));
@@ -133,7 +133,7 @@ void require_room_for_pixels(const Grid& grid, std::uintmax_t file_bytes, const 
 }
 
 // What the header says of the table, empty of values. Checks all of it against the layout.
-Table read_header(const Imf::InputFile& file, int index, std::uintmax_t file_bytes,
+Table read_header(const Imf::InputFile& file, std::size_t index, std::uintmax_t file_bytes,
                   const fs::path& path) {
   const Imf::Header& header = file.header();
   if (const int found = attribute<Imf::IntAttribute>(header, "ltc:format_version", path);
@@ -173,21 +173,21 @@ void take_value(Table& table, std::size_t entry, std::size_t channel, float valu
     table.fresnel[entry] = value;
 }
 
-void take_pixels(Table& table, int index, const std::vector<float>& pixels, const fs::path& path) {
+void take_pixels(Table& table, std::size_t index, const std::vector<float>& pixels,
+                 const fs::path& path) {
   for (std::size_t entry = 0; entry < table.grid.size(); ++entry) {
     const float* const first = &pixels[channels_per_file * pixel(table.grid, entry)];
     for (std::size_t channel = 0; channel < channels_per_file; ++channel) {
       if (!std::isfinite(first[channel]))
         refuse(path, fmt::format("channel {} is not finite at pixel {}", channel_names[channel],
                                  pixel(table.grid, entry)));
-      take_value(table, entry, channels_per_file * static_cast<std::size_t>(index) + channel,
-                 first[channel]);
+      take_value(table, entry, channels_per_file * index + channel, first[channel]);
     }
   }
 }
 
 // Reads file `index` into the table; the first one makes it.
-void read_file_into(Table& table, int index, const fs::path& path) {
+void read_file_into(Table& table, std::size_t index, const fs::path& path) {
   const std::uintmax_t file_bytes = require_readable(path);
   if (const std::string fault = exr_header_fault(path); !fault.empty())
     refuse(path, fault);
@@ -218,10 +218,10 @@ void read_file_into(Table& table, int index, const fs::path& path) {
 
 }  // namespace
 
-Table read_exr(const fs::path& prefix) {
+Table read_exr(const TableFiles& paths, std::optional<Layout>) {
   Table table;
-  for (int index = 0; index < files; ++index)
-    read_file_into(table, index, exr_path(prefix, index));
+  for (std::size_t index = 0; index < paths.size(); ++index)
+    read_file_into(table, index, paths[index]);
   table.brdf.clear();
   table.status.assign(table.grid.size(), Status::fitted);
   return table;

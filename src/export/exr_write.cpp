@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
+// Tables as three OpenEXR images, each a 3-D texture laid out as an atlas: pixel x = phi + Nphi
+// lambda, y = theta + Ntheta alpha. docs/files.md says which channel holds what. Writing.
 #include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -22,7 +24,6 @@
 #include "core/error.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
-#include "export/exr.h"
 #include "export/exr_layout.h"
 #include "export/file.h"
 #include "export/nearest.h"
@@ -54,7 +55,7 @@ void require_storable(const Table& table, std::size_t entry, float value, float 
       file.string(), node.alpha, node.lambda, node.theta, node.phi, value, largest));
 }
 
-std::array<Pixels, files> gather_pixels(const Table& table, const fs::path& prefix, bool half) {
+std::array<Pixels, files> gather_pixels(const Table& table, const TableFiles& paths, bool half) {
   const std::vector<std::size_t> source = nearest_fitted(table);
   const float largest = half ? 65504.0f : std::numeric_limits<float>::max();
   std::array<Pixels, files> pixels;
@@ -64,8 +65,7 @@ std::array<Pixels, files> gather_pixels(const Table& table, const fs::path& pref
       float* const first = &pixels[file][channels_per_file * pixel(table.grid, entry)];
       for (std::size_t channel = 0; channel < channels_per_file; ++channel) {
         first[channel] = value_of(table, source[entry], channels_per_file * file + channel);
-        require_storable(table, source[entry], first[channel], largest,
-                         exr_path(prefix, static_cast<int>(file)));
+        require_storable(table, source[entry], first[channel], largest, paths[file]);
       }
     }
   }
@@ -125,31 +125,35 @@ std::string encode_file(const Table& table, std::size_t file, const Pixels& pixe
   return encode(make_header(table, file, Imf::HALF), rounded, Imf::HALF);
 }
 
-}  // namespace
-
-fs::path exr_path(const fs::path& prefix, int index) {
-  return fs::path(fmt::format("{}.{}.exr", prefix.string(), index));
-}
-
-void add_exr(platform::FileSet& set, const Table& table, const fs::path& prefix, bool half) {
-  require_consistent(table, exr_path(prefix, 0));
-  const std::array<Pixels, files> pixels = gather_pixels(table, prefix, half);
+// Skipped and failed entries take the values of nearest_fitted (export/nearest.h). Throws
+// InputError for a table without values, and for a value that is not finite or beyond the 16-bit
+// range.
+void add_exr(platform::FileSet& set, const Table& table, const TableFiles& paths,
+             const WriteOptions& options) {
+  const std::array<Pixels, files> pixels = gather_pixels(table, paths, options.half);
   std::array<std::string, files> encoded;
   try {
     for (std::size_t file = 0; file < encoded.size(); ++file)
-      encoded[file] = encode_file(table, file, pixels[file], half);
+      encoded[file] = encode_file(table, file, pixels[file], options.half);
   } catch (const Iex::BaseExc& error) {
-    throw IoError(fmt::format("cannot write {}: {}", exr_path(prefix, 0).string(),
-                              on_one_line(error.what())));
+    throw IoError(
+        fmt::format("cannot write {}: {}", paths.front().string(), on_one_line(error.what())));
   }
   for (std::size_t file = 0; file < encoded.size(); ++file)
-    add_file(set, exr_path(prefix, static_cast<int>(file)), encoded[file]);
+    add_file(set, paths[file], encoded[file]);
 }
 
-void write_exr(const Table& table, const fs::path& prefix, bool half) {
-  platform::FileSet set;
-  add_exr(set, table, prefix, half);
-  set.commit();
+}  // namespace
+
+Format exr_format() {
+  return {.name = "OpenEXR",
+          .endings = {".0.exr", ".1.exr", ".2.exr"},
+          .asked = &OutputSettings::exr,
+          .contents = {.albedo = true, .loss = false},
+          .entry_bytes = files * channels_per_file * 4,
+          .half = true,
+          .read = read_exr,
+          .add = add_exr};
 }
 
 }  // namespace ltc

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-#include "export/hdf5.h"
-
+// Tables as HDF5: all that is known of every entry. docs/files.md says what lies where.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "core/error.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
+#include "export/format.h"
 #include "export/hdf5_file.h"
 #include "export/hdf5_guard.h"
 
@@ -23,6 +23,10 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string root = "/";
+
+// The attributes `format` and `format_version`.
+constexpr const char* table_format = "ltc-table";
+constexpr int table_format_version = 1;
 
 std::string axis_dataset(std::string_view axis) {
   return fmt::format("axis/{}", axis);
@@ -163,22 +167,20 @@ void read_entries(const Hdf5Input& file, const fs::path& path, Table& table) {
   table.iterations = file.values<std::uint16_t>("iterations", shape);
 }
 
-}  // namespace
+Table read_hdf5(const fs::path& path) {
+  require_harmless(path, [&path] { read_hdf5_unguarded(path); });
+  return read_hdf5_unguarded(path);
+}
 
-void add_hdf5(platform::FileSet& files, const Table& table, const fs::path& path) {
-  require_consistent(table, path);
+void add_hdf5(platform::FileSet& set, const Table& table, const fs::path& path) {
   Hdf5Output file(path.string());
   write_attributes(file, table);
   write_axes(file, table.grid);
   write_entries(file, table);
-  add_file(files, path, file.finish());
+  add_file(set, path, file.finish());
 }
 
-void write_hdf5(const Table& table, const fs::path& path) {
-  platform::FileSet files;
-  add_hdf5(files, table, path);
-  files.commit();
-}
+}  // namespace
 
 Table read_hdf5_unguarded(const fs::path& path) {
   const Hdf5Input file(path);
@@ -191,9 +193,15 @@ Table read_hdf5_unguarded(const fs::path& path) {
   return table;
 }
 
-Table read_hdf5(const fs::path& path) {
-  require_harmless(path, [&path] { read_hdf5_unguarded(path); });
-  return read_hdf5_unguarded(path);
+Format hdf5_format() {
+  return {.name = "HDF5",
+          .endings = {".h5"},
+          .asked = &OutputSettings::hdf5,
+          .entry_bytes = 12 * 4 + 3,  // matrix, albedos, loss; status, steps
+          .read = [](const TableFiles& files,
+                     std::optional<Layout>) { return read_hdf5(files.front()); },
+          .add = [](platform::FileSet& set, const Table& table, const TableFiles& files,
+                    const WriteOptions&) { add_hdf5(set, table, files.front()); }};
 }
 
 }  // namespace ltc

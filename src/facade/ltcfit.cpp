@@ -11,15 +11,11 @@
 #include "config/config.h"
 #include "core/platform.h"
 #include "core/version.h"
-#include "export/config_file.h"
-#include "export/exr.h"
-#include "export/hdf5.h"
-#include "export/npy.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 #include "facade/watched_run.h"
 #include "judge/validate_settings.h"
 #include "pipeline/fit_one.h"
-#include "pipeline/generate.h"
+#include "pipeline/run.h"
 #include "table/lookup.h"
 
 namespace ltcfit {
@@ -81,14 +77,7 @@ Table Table::read(const std::filesystem::path& file) {
 }
 
 void Table::write(const std::filesystem::path& file, bool half) const {
-  const std::string name = file.string();
-  if (file.extension() == ".h5")
-    return ltc::write_hdf5(data_->table, file);
-  if (file.extension() == ".npy")
-    return ltc::write_npy(data_->table, file);
-  if (constexpr std::string_view suffix = ".0.exr"; name.ends_with(suffix))
-    return ltc::write_exr(data_->table, name.substr(0, name.size() - suffix.size()), half);
-  throw InputError(fmt::format("{}: no suffix of a table; allowed: .h5, .npy, .0.exr", name));
+  ltc::write_table(data_->table, file, {half});
 }
 
 std::array<std::size_t, 4> Table::shape() const {
@@ -142,13 +131,16 @@ Shading Table::look_up(const Lobe& lobe) const {
   return {result.matrix, result.amplitude, result.fresnel};
 }
 
-Table generate(const Config& config, const Run& run) {
-  const ltc::Config settings = load(config);
-  ltc::Table table;
-  do_watched(
-      run, [&](const ltc::RunContext& context) { table = ltc::generate_table(settings, context); });
-  table.created = ltc::platform::utc_now_iso8601();
-  return Table(std::move(table), true, true);
+Table generate(const Config& config, const Run& run, const Part& part) {
+  ltc::RunRequest request;
+  request.config = load(config);
+  request.scene = part.scene;
+  request.extend = part.extend;
+  request.created = ltc::platform::utc_now_iso8601();
+  request.warn = run.warn;
+  ltc::RunReport report;
+  do_watched(run, [&](const ltc::RunContext& context) { report = make_table(request, context); });
+  return Table(std::move(report.table), true, true);
 }
 
 bool Validation::passed() const {

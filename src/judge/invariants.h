@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/run_context.h"
-#include "export/reader.h"
+#include "export/format.h"
 #include "table/table.h"
 
 namespace ltc {

@@ -185,7 +185,6 @@ Table generate_table(const Config& config, const RunContext& run, GenerateReport
 
 Table generate_table(const Config& config, const std::vector<bool>& needed, const RunContext& run,
                      GenerateReport* report, FitJournal* journal, const RefineContext& context) {
-  require_memory(config, needed, context);
   GenerateReport unread;
   GenerateReport& result = report ? *report : unread;
   auto lap = std::chrono::steady_clock::now();

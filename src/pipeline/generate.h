@@ -51,7 +51,7 @@ void require_memory(const Config& config, const std::vector<bool>& needed,
                     const RefineContext& context = {});
 
 // Makes the entries of `config`'s table that are `needed` (one flag a node). Throws InputError for
-// a config that cannot be met and as require_memory, Interrupted when a stop is asked for.
+// a config that cannot be met, Interrupted when a stop is asked for; does not ask for memory.
 // `journal` as for fit_table.
 Table generate_table(const Config& config, const std::vector<bool>& needed, const RunContext& run,
                      GenerateReport* report, FitJournal* journal = nullptr,

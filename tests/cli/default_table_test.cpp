@@ -13,10 +13,8 @@
 
 #include "config/config.h"
 #include "core/parallel.h"
-#include "export/exr.h"
-#include "export/hdf5.h"
-#include "export/npy.h"
 #include "export/same_tables.h"
+#include "export/table_file.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
 #include "judge/comparison_summary.h"
@@ -60,13 +58,13 @@ void expect_summary(const std::string& out) {
 }
 
 void expect_agreeing_files(const Table& table, const fs::path& folder) {
-  const Table textures = read_exr(folder / "ltc");
+  const Table textures = read_table(folder / "ltc.0.exr");
   EXPECT_EQ(textures.grid, table.grid);
   EXPECT_EQ(textures.storage, table.storage);
   testing::expect_same_bits(textures.stored, table.stored, "stored");
   testing::expect_same_bits(textures.amplitude, table.amplitude, "amplitude");
   testing::expect_same_bits(textures.fresnel, table.fresnel, "fresnel");
-  const Table array = read_npy(folder / "ltc.npy");
+  const Table array = read_table(folder / "ltc.npy");
   EXPECT_EQ(array.grid, table.grid);
   testing::expect_same_bits(array.stored, table.stored, "stored");
 }
@@ -80,12 +78,12 @@ void expect_readable_by_others(const fs::path& folder) {
   EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
   EXPECT_EQ(checked.out, "0 2850 1239 7 0\n");
   // And it sees one float that differs.
-  Table other = read_npy(folder / "ltc.npy");
+  Table other = read_table(folder / "ltc.npy");
   other.stored[9 * 2000] = std::nextafter(other.stored[9 * 2000], 9.0f);
-  write_npy(other, folder / "other.npy");
+  write_table(other, folder / "other.npy");
   EXPECT_EQ(check(folder / "other.npy").exit_code, 1);
-  for (int i = 0; i < 3; ++i) {
-    const ProgramResult header = run_program({"exrheader", exr_path(folder / "ltc", i).string()});
+  for (const fs::path& texture : files_of_table(folder / "ltc.0.exr")) {
+    const ProgramResult header = run_program({"exrheader", texture.string()});
     EXPECT_EQ(header.exit_code, 0) << header.err;
     EXPECT_NE(header.out.find("dataWindow (type box2i): (0 0) - (63 63)"), std::string::npos)
         << header.out;
@@ -251,7 +249,7 @@ TEST(DefaultTable, IsWholeReadableAndNearTheReference) {
       {"generate", "--output", folder.path().string(), "--set", "refine.steps=0"}, folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   expect_summary(result.out);
-  const Table table = read_hdf5(folder / "ltc.h5");
+  const Table table = read_table(folder / "ltc.h5");
   EXPECT_EQ(table.grid, Grid::paper(8));
   Config config;
   config.refine.steps = 0;
@@ -332,13 +330,13 @@ TEST(DefaultTable, RefinedIsWholeReadableAndNearGgxBetweenTheNodes) {
   const std::string out = generate({});
   expect_summary(out);
   EXPECT_NE(out.find("refined  "), std::string::npos) << out;
-  const Table table = read_hdf5(folder / "out/ltc.h5");
+  const Table table = read_table(folder / "out/ltc.h5");
   EXPECT_EQ(table.config, to_toml(Config{}));
   EXPECT_EQ(faults_of(table), std::vector<std::string>{});
   expect_agreeing_files(table, folder / "out");
   expect_readable_by_others(folder / "out");
   generate({"--set", "refine.steps=0", "-o", "fitted"});
-  const Table fitted = read_hdf5(folder / "fitted/ltc.h5");
+  const Table fitted = read_table(folder / "fitted/ltc.h5");
   // Queries that no refinement has seen. Measured over 2,400: 0.081 against 0.112; 300 of them tell
   // the ratio to some 4 %: 0.775.
   const std::vector<GgxLobe> lobes = random_queries({}, 300, 77, table.grid.alpha_min);

@@ -8,9 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/diff_tables.h"
-#include "export/hdf5.h"
-#include "export/npy.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 #include "support/refused_run.h"
 #include "test_paths.h"
 
@@ -24,8 +22,8 @@ using Json = nlohmann::json;
 
 TEST(DiffTolerance, BoundsTheDistanceBetweenTheLobes) {
   const TemporaryDirectory folder;
-  write_hdf5(example(), folder / "good.h5");
-  write_hdf5(damaged_example(), folder / "bad.h5");
+  write_table(example(), folder / "good.h5");
+  write_table(damaged_example(), folder / "bad.h5");
   const std::size_t bad = example().grid.flat(damaged_node);
   const double distance =
       compare_tables(damaged_example(), example(), quick_settings(), {1})[bad].relative_distance();
@@ -50,10 +48,10 @@ TEST(DiffTolerance, BoundsTheDistanceBetweenTheLobes) {
 
 TEST(DiffTolerance, BoundsAmplitudeFresnelTermAndCoverage) {
   const TemporaryDirectory folder;
-  write_hdf5(example(), folder / "a.h5");
+  write_table(example(), folder / "a.h5");
   const auto expect = [&](const Table& b, const std::string& tolerance, int exit_code,
                           const std::string& what) {
-    write_hdf5(b, folder / "b.h5");
+    write_table(b, folder / "b.h5");
     const ProgramResult result =
         run_ltcfit(diff("a.h5", "b.h5", {"--tolerance", tolerance}), folder.path());
     EXPECT_EQ(result.exit_code, exit_code) << what;
@@ -82,8 +80,8 @@ TEST(DiffTolerance, BoundsAmplitudeFresnelTermAndCoverage) {
 // Where nodes cannot be compared one by one, the look-ups are bound.
 TEST(DiffTolerance, BoundsTheLookUpsOfTablesOfDifferentGrids) {
   const TemporaryDirectory folder;
-  write_hdf5(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "a.h5");
-  write_hdf5(testing::synthetic_table(Grid::paper(3), Storage::matrix), folder / "b.h5");
+  write_table(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "a.h5");
+  write_table(testing::synthetic_table(Grid::paper(3), Storage::matrix), folder / "b.h5");
   const auto run = [&](const std::string& b, const std::string& tolerance) {
     return run_ltcfit(diff("a.h5", b, {"--tolerance", tolerance, "--json", "all.json"}),
                       folder.path());
@@ -109,7 +107,7 @@ TEST(DiffTolerance, BoundsTheLookUpsOfTablesOfDifferentGrids) {
     part.amplitude[flat] = part.fresnel[flat] = part.sw_loss[flat] = std::nanf("");
     part.status[flat] = Status::skipped;
   }
-  write_hdf5(part, folder / "part.h5");
+  write_table(part, folder / "part.h5");
   const ProgramResult lacking = run("part.h5", "100");
   EXPECT_EQ(lacking.exit_code, 1);
   EXPECT_NE(lacking.err.find("16 queries in need of an entry that B has not"), std::string::npos)
@@ -166,7 +164,7 @@ TEST(DiffTolerance, TwoRunsOfOneConfigDifferByNothing) {
 TEST(DiffBadInput, FilesThatAreNoTables) {
   const TemporaryDirectory folder;
   const Table table = testing::synthetic_table(testing::uneven_grid(), Storage::matrix);
-  write_hdf5(table, folder / "t.h5");
+  write_table(table, folder / "t.h5");
   const ProgramResult damage =
       run_program({"/usr/bin/python3", LTCFIT_SOURCE_DIR "/tests/export/damage_h5.py",
                    (folder / "t.h5").string(), folder.path().string()});
@@ -175,7 +173,7 @@ TEST(DiffBadInput, FilesThatAreNoTables) {
   folder.write("cut.h5", whole.substr(0, whole.size() * 2 / 3));
   folder.write("empty.h5", "");
   folder.write("text.h5", "no table at all");
-  write_npy(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "t.npy");
+  write_table(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "t.npy");
   const std::string array = read_file(folder / "t.npy");
   const auto replaced = [&](const std::string& from, const std::string& to) {
     std::string text = array;
@@ -217,11 +215,11 @@ TEST(DiffBadInput, FilesThatAreNoTables) {
 
 TEST(DiffBadInput, IsRefusedInOneLineAndWritesNothing) {
   const TemporaryDirectory tables;
-  write_hdf5(example(), tables / "a.h5");
-  write_hdf5(testing::synthetic_table(Grid::paper(2), Storage::matrix), tables / "small.h5");
+  write_table(example(), tables / "a.h5");
+  write_table(testing::synthetic_table(Grid::paper(2), Storage::matrix), tables / "small.h5");
   Grid finer = testing::uneven_grid();
   finer.alpha_min = 1e-5;
-  write_hdf5(testing::synthetic_table(finer, Storage::matrix), tables / "finer.h5");
+  write_table(testing::synthetic_table(finer, Storage::matrix), tables / "finer.h5");
   const fs::path a = tables / "a.h5", garbage = tables.write("garbage.h5", "no table at all");
   const std::string whole = read_file(a);
   const fs::path cut = tables.write("cut.h5", whole.substr(0, whole.size() / 2));
@@ -238,7 +236,7 @@ TEST(DiffBadInput, IsRefusedInOneLineAndWritesNothing) {
                  {"different shapes", "same grid", "--map"});
   Grid sharp = Grid::paper(2);
   sharp.alpha = Axis::make(0.01, 0.05, 2, Warp::linear);
-  write_hdf5(testing::synthetic_table(sharp, Storage::matrix), tables / "sharp.h5");
+  write_table(testing::synthetic_table(sharp, Storage::matrix), tables / "sharp.h5");
   expect_refused(diff(a, tables / "sharp.h5", csv), 2, {"different", "no lobe in common"});
   expect_refused(diff(a, tables / "none.h5", csv), 3, {"none.h5", "No such file"});
   expect_refused(diff(tables / "none.npy", a, csv), 3, {"none.npy", "No such file"});

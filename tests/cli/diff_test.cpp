@@ -10,8 +10,7 @@
 #include <sstream>
 
 #include "cli/diff_tables.h"
-#include "export/hdf5.h"
-#include "export/npy.h"
+#include "export/table_file.h"
 #include "judge/compare.h"
 #include "picture/png.h"
 #include "support/program.h"
@@ -46,7 +45,7 @@ std::vector<double> row(const std::string& report, const std::string& name) {
 
 TEST(Diff, ATableAgainstItselfHasTheRatioOne) {
   const TemporaryDirectory folder;
-  write_hdf5(example(), folder / "a.h5");
+  write_table(example(), folder / "a.h5");
   const ProgramResult result = run_ltcfit(diff(folder / "a.h5", folder / "a.h5"), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a.h5"});
@@ -65,8 +64,8 @@ TEST(Diff, ATableAgainstItselfHasTheRatioOne) {
 
 TEST(Diff, FindsTheDamagedEntry) {
   const TemporaryDirectory folder;
-  write_hdf5(example(), folder / "good.h5");
-  write_hdf5(damaged_example(), folder / "bad.h5");
+  write_table(example(), folder / "good.h5");
+  write_table(damaged_example(), folder / "bad.h5");
   const ProgramResult result =
       run_ltcfit(diff(folder / "bad.h5", folder / "good.h5"), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -86,8 +85,8 @@ TEST(Diff, FindsTheDamagedEntry) {
 TEST(Diff, TheCsvHasEveryEntryInTheOrderOfTheGrid) {
   const TemporaryDirectory folder;
   const Table good = example(), bad = damaged_example();
-  write_hdf5(good, folder / "good.h5");
-  write_hdf5(bad, folder / "bad.h5");
+  write_table(good, folder / "good.h5");
+  write_table(bad, folder / "bad.h5");
   const ProgramResult result = run_ltcfit(
       diff(folder / "bad.h5", folder / "good.h5", {"--csv", (folder / "all.csv").string()}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -126,8 +125,8 @@ TEST(Diff, EntriesThatOneTableLacksDoNotCount) {
   part.set_stored(flat, Eigen::Matrix3d::Constant(std::nan("")));
   part.amplitude[flat] = part.fresnel[flat] = part.sw_loss[flat] = std::nanf("");
   part.status[flat] = Status::skipped;
-  write_hdf5(part, folder / "part.h5");
-  write_hdf5(example(), folder / "whole.h5");
+  write_table(part, folder / "part.h5");
+  write_table(example(), folder / "whole.h5");
   const ProgramResult result = run_ltcfit(
       diff(folder / "part.h5", folder / "whole.h5", {"--csv", (folder / "all.csv").string()}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -140,8 +139,8 @@ TEST(Diff, EntriesThatOneTableLacksDoNotCount) {
 
 TEST(Diff, TheJsonHasTheReport) {
   const TemporaryDirectory folder;
-  write_hdf5(example(), folder / "good.h5");
-  write_hdf5(damaged_example(), folder / "bad.h5");
+  write_table(example(), folder / "good.h5");
+  write_table(damaged_example(), folder / "bad.h5");
   const ProgramResult result =
       run_ltcfit(diff("bad.h5", "good.h5", {"--json", "all.json"}), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -185,8 +184,8 @@ TEST(Diff, SaysInOneLineWhichTableIsNearerInUse) {
     matrix.leftCols(2) *= 3;
     wide.set_stored(flat, matrix);
   }
-  write_hdf5(example(), folder / "good.h5");
-  write_hdf5(wide, folder / "wide.h5");
+  write_table(example(), folder / "good.h5");
+  write_table(wide, folder / "wide.h5");
   const auto run = [&](const char* a, const char* b) {
     const ProgramResult result = run_ltcfit(diff(a, b, {"--json", "all.json"}), folder.path());
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -209,9 +208,9 @@ TEST(Diff, SaysInOneLineWhichTableIsNearerInUse) {
 
 TEST(Diff, TablesOfDifferentGridsAreComparedInUse) {
   const TemporaryDirectory folder;
-  write_hdf5(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "coarse.h5");
-  write_npy(testing::synthetic_table(Grid::paper({4, 3, 5, 4}), Storage::matrix),
-            folder / "fine.npy");
+  write_table(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "coarse.h5");
+  write_table(testing::synthetic_table(Grid::paper({4, 3, 5, 4}), Storage::matrix),
+              folder / "fine.npy");
   const ProgramResult result = run_ltcfit(
       diff("coarse.h5", "fine.npy", {"--json", "all.json", "--csv", "all.csv"}), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -236,7 +235,7 @@ TEST(Diff, SaysThatNodesOfARefinedTableAreNoFits) {
   const auto write = [&](const char* name, bool refined) {
     Table table = example();
     table.refined = refined;
-    write_hdf5(table, folder / name);
+    write_table(table, folder / name);
   };
   write("refined.h5", true);
   write("fitted.h5", false);
@@ -251,7 +250,7 @@ TEST(Diff, SaysThatNodesOfARefinedTableAreNoFits) {
 
 TEST(Diff, NamesThatAreNoUtf8HaveAReportToo) {
   const TemporaryDirectory folder;
-  write_hdf5(example(), folder / "a\xff.h5");
+  write_table(example(), folder / "a\xff.h5");
   const ProgramResult result = run_ltcfit(
       diff("a\xff.h5", "a\xff.h5", {"--json", "all.json", "--map", "map.png"}), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -262,8 +261,8 @@ TEST(Diff, NamesThatAreNoUtf8HaveAReportToo) {
 TEST(Diff, ArraysOfMatricesHaveNoTermsToCompare) {
   const TemporaryDirectory folder;
   const Table table = testing::synthetic_table(Grid::paper(2), Storage::mirror_frame);
-  write_hdf5(table, folder / "t.h5");
-  write_npy(table, folder / "t.npy");
+  write_table(table, folder / "t.h5");
+  write_table(table, folder / "t.npy");
   const ProgramResult result =
       run_ltcfit(diff("t.h5", "t.npy", {"--tolerance", "1e-5"}), folder.path());
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -279,9 +278,9 @@ TEST(Diff, ArraysOfMatricesHaveNoTermsToCompare) {
 TEST(Diff, ATableWithoutConfigIsLookedIntoAsItIs) {
   const TemporaryDirectory folder;
   Table table = testing::synthetic_table(Grid::paper(2), Storage::matrix);
-  write_npy(table, folder / "good.npy");
+  write_table(table, folder / "good.npy");
   table.set_stored(table.grid.size() - 1, Eigen::Matrix3d::Identity());
-  write_npy(table, folder / "it's bad.npy");
+  write_table(table, folder / "it's bad.npy");
   run_ltcfit(diff("it's bad.npy", "good.npy", {"--json", "all.json"}), folder.path());
   EXPECT_EQ(Json::parse(read_file(folder / "all.json"))["worst"]["distance"][0]["command_a"],
             "ltcfit fit --as-in 'it'\\''s bad.npy' --entry 1,1,1,1");
@@ -289,8 +288,8 @@ TEST(Diff, ATableWithoutConfigIsLookedIntoAsItIs) {
 
 TEST(Diff, TheMapIsAPicture) {
   const TemporaryDirectory folder;
-  write_hdf5(example(), folder / "good.h5");
-  write_hdf5(damaged_example(), folder / "bad.h5");
+  write_table(example(), folder / "good.h5");
+  write_table(damaged_example(), folder / "bad.h5");
   const ProgramResult result =
       run_ltcfit(diff("bad.h5", "good.h5", {"--map", "map.png"}), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "export/checkpoint.h"
-#include "export/hdf5.h"
+#include "export/table_file.h"
 #include "support/generate_runs.h"
 #include "support/refused_run.h"
 #include "test_paths.h"
@@ -191,7 +191,7 @@ TEST(FailedEntries, AreWrittenAsSuchAndToldOf) {
   write_failures(folder, 1);
   const ProgramResult result = run_ltcfit(generate(tiny + Arguments{"--resume"}), folder.path());
   EXPECT_EQ(result.exit_code, 1);
-  const Table table = read_hdf5(folder / "ltc.h5");
+  const Table table = read_table(folder / "ltc.h5");
   const auto failed = std::count(table.status.begin(), table.status.end(), Status::failed);
   EXPECT_GE(failed, 1);
   EXPECT_TRUE(result.err.ends_with("ltcfit: " + std::to_string(failed) +

@@ -137,7 +137,7 @@ TEST_F(OutputFiles, MayBeTheTableThatIsExtended) {
   const Arguments extend = unrefined + Arguments{"--extend", "T.h5", "--set", "output.name=T"};
   const ProgramResult result = run_ltcfit(generate(extend), folder_.path());
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(read_hdf5(folder_ / "T.h5").stored, read_hdf5(*table_ / "T.h5").stored);
+  EXPECT_EQ(read_table(folder_ / "T.h5").stored, read_table(*table_ / "T.h5").stored);
 }
 
 // What cannot be written is refused before there is anything to write.

@@ -6,9 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "export/hdf5.h"
-#include "export/npy.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 #include "support/broken_table.h"
 #include "support/refused_run.h"
 
@@ -63,7 +61,7 @@ const std::vector<std::string> lobe = {"--alpha-x", "0.4", "--alpha-y", "0.2",
                                        "--theta",   "50",  "--phi",     "20"};
 
 TEST_F(FitAsIn, ShowsAnEntryBitForBit) {
-  const Table table = read_hdf5(file("whole/ltc.h5"));
+  const Table table = read_table(file("whole/ltc.h5"));
   const std::size_t flat = table.grid.flat({1, 2, 1, 1});
   for (const char* name : {"whole/ltc.h5", "whole/ltc.npy", "whole/ltc.0.exr"}) {
     SCOPED_TRACE(name);
@@ -99,7 +97,7 @@ TEST_F(FitAsIn, ABrokenEntryIsFarAboveItsFloor) {
 
 TEST_F(FitAsIn, ShowsWhatALookUpGives) {
   const Json json = shown(file("whole/ltc.h5"), lobe);
-  const Table table = read_hdf5(file("whole/ltc.h5"));
+  const Table table = read_table(file("whole/ltc.h5"));
   EXPECT_FALSE(json.contains("entry"));
   EXPECT_EQ(json["within_axes"], true);
   ASSERT_EQ(json["nodes"].size(), 8u) << "lambda = 0.5 is a plane of nodes";
@@ -173,7 +171,7 @@ TEST_F(FitAsIn, SaysWhatFoldingDoes) {
 // `fit --config TABLE.h5` plans symmetry over the table's own entries, so that entries of a scene's
 // table come out as they are in it.
 TEST_F(FitAsIn, TheConfigOfAScenesTableReproducesItsEntries) {
-  const Table table = read_hdf5(file("part/ltc.h5"));
+  const Table table = read_table(file("part/ltc.h5"));
   std::size_t copied = 0, others = 0;
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
     std::size_t& seen = table.status[flat] == Status::copied ? copied : others;

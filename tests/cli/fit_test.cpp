@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "export/reader.h"
+#include "export/table_file.h"
 #include "support/program.h"
 #include "table/table.h"
 #include "test_paths.h"

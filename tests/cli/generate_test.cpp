@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include "export/hdf5.h"
+#include "export/table_file.h"
 #include "support/refused_run.h"
 #include "test_paths.h"
 
@@ -108,7 +108,7 @@ TEST(Generate, MakesTheSameBytesAgainAtAGivenTime) {
   ASSERT_EQ(made_at("1700000001", "c").exit_code, 0);
   EXPECT_EQ(read_file(folder / "a/ltc.h5"), read_file(folder / "b/ltc.h5"));
   EXPECT_NE(read_file(folder / "a/ltc.h5"), read_file(folder / "c/ltc.h5"));
-  EXPECT_EQ(read_hdf5(folder / "a/ltc.h5").created, "2023-11-14T22:13:20Z");
+  EXPECT_EQ(read_table(folder / "a/ltc.h5").created, "2023-11-14T22:13:20Z");
   for (const char* seconds : {"", "now", "1.5", "-1", "253402300800", "99999999999999999999"})
     expect_error(made_at(seconds, "d"), 2, {"SOURCE_DATE_EPOCH", seconds, "[0, 253402300799]"});
   EXPECT_FALSE(fs::exists(folder / "d"));

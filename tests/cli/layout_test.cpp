@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "export/npy.h"
+#include "export/table_file.h"
 #include "support/reference.h"
 #include "support/refused_run.h"
 #include "table/lookup.h"
@@ -23,12 +23,12 @@ constexpr const char* told = "read with axes alpha_x, alpha_y, theta, phi";
 // Tables of first-order matrices in either layout, as arrays.
 struct Arrays {
   Arrays() {
-    write_npy(testing::synthetic_table(Grid::paper(4), Storage::matrix), folder / "ratio.npy");
+    write_table(testing::synthetic_table(Grid::paper(4), Storage::matrix), folder / "ratio.npy");
     Grid grid = Grid::paper(4);
     grid.layout = Layout::alphax_alphay;
     Table both = testing::synthetic_table(grid, Storage::matrix);
     both.grid.layout = Layout::alpha_lambda;  // the array says nothing of it
-    write_npy(both, folder / "both.npy");
+    write_table(both, folder / "both.npy");
   }
   ProgramResult entry(const std::string& file, const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {"fit", "--as-in", file, "--entry", "1,2,1,1"};
@@ -101,7 +101,7 @@ TEST(LayoutOfArrays, ALookUpTakesBothRoughnesses) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json report = Json::parse(result.out);
   const Eigen::Matrix3d expected =
-      look_up(read_npy(arrays.folder / "both.npy"),
+      look_up(read_table(arrays.folder / "both.npy"),
               {0.2, 0.6, 30 * std::numbers::pi / 180, 20 * std::numbers::pi / 180})
           .matrix;
   for (std::size_t row = 0; row < 3; ++row)

@@ -7,9 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "export/exr.h"
-#include "export/hdf5.h"
 #include "export/same_tables.h"
+#include "export/table_file.h"
 #include "judge/held_out.h"
 #include "support/refused_run.h"
 #include "table/lookup.h"
@@ -62,8 +61,8 @@ TEST(RefineProgram, BettersWhatLiesBetweenTheNodes) {
       folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("refined  4 steps over "), std::string::npos) << result.out;
-  const Table before = read_hdf5(folder / "fitted/ltc.h5"),
-              after = read_hdf5(folder / "refined/ltc.h5");
+  const Table before = read_table(folder / "fitted/ltc.h5"),
+              after = read_table(folder / "refined/ltc.h5");
   // These queries are neither refined on nor those that decide what is kept; the
   // mean of 200 has a standard error of some 5 %, the same on both sides.
   EXPECT_LT(mean_relative_loss(after), 0.85 * mean_relative_loss(before));
@@ -81,8 +80,9 @@ TEST(RefineProgram, FilesSayWhetherTheTableIsRefined) {
     const ProgramResult made = run_ltcfit(generate(more), folder.path());
     EXPECT_EQ(made.exit_code, 0) << made.err;
     EXPECT_NE(made.out.find(words), std::string::npos) << made.out;
-    EXPECT_EQ(read_exr(folder / "out/ltc").refined, read_hdf5(folder / "out/ltc.h5").refined);
-    return read_hdf5(folder / "out/ltc.h5").refined;
+    EXPECT_EQ(read_table(folder / "out/ltc.0.exr").refined,
+              read_table(folder / "out/ltc.h5").refined);
+    return read_table(folder / "out/ltc.h5").refined;
   };
   EXPECT_EQ(refined({"--set", "refine.steps=0"}, "entries "), false);
   // So short a step betters nothing.
@@ -137,8 +137,8 @@ TEST(RefineProgram, CommandsShowWhatIsStoredAndWhatWasFitted) {
   const ProgramResult made =
       run_ltcfit(generate({"-o", "refined", "--set", "refine.steps=2"}), folder.path());
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  const Table before = read_hdf5(folder / "fitted/ltc.h5"),
-              after = read_hdf5(folder / "refined/ltc.h5");
+  const Table before = read_table(folder / "fitted/ltc.h5"),
+              after = read_table(folder / "refined/ltc.h5");
   expect_commands_show(made.out, "in the table:", after, folder, 5);
   expect_commands_show(made.out, "before refinement:", before, folder, 5);
   // So do those of validate; and diff prints what tells the two tables apart.
@@ -167,7 +167,7 @@ TEST(RefineProgram, ServesAScene) {
       generate({"--scene", "scene.toml", "--set", "refine.steps=2", "-o", "out"}), folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("refined  2 steps over "), std::string::npos) << result.out;
-  const Table table = read_hdf5(folder / "out/ltc.h5");
+  const Table table = read_table(folder / "out/ltc.h5");
   EXPECT_EQ(table.status[0], Status::skipped);
   EXPECT_TRUE(std::isnan(table.stored[0]));
   EXPECT_TRUE(std::isfinite(look_up(table, {0.7, 0.5, 0.8, 0.4}).matrix.sum()));
@@ -184,8 +184,8 @@ TEST(RefineProgram, MovesOnlyWhatAnExtensionAdds) {
   run({"--scene", "scene.toml", "--set", "refine.steps=2", "-o", "old"});
   run({"--extend", "old/ltc.h5", "--set", "refine.steps=2", "-o", "new"});
   run({"--extend", "old/ltc.h5", "--set", "refine.steps=0", "-o", "unrefined"});
-  const Table old = read_hdf5(folder / "old/ltc.h5"), table = read_hdf5(folder / "new/ltc.h5"),
-              unrefined = read_hdf5(folder / "unrefined/ltc.h5");
+  const Table old = read_table(folder / "old/ltc.h5"), table = read_table(folder / "new/ltc.h5"),
+              unrefined = read_table(folder / "unrefined/ltc.h5");
   std::size_t kept = 0, moved = 0;
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
     ASSERT_TRUE(has_values(table.status[flat])) << flat;

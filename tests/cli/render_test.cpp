@@ -6,8 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "export/hdf5.h"
-#include "export/npy.h"
+#include "export/table_file.h"
 #include "support/program.h"
 #include "support/refusal.h"
 #include "table/synthetic.h"
@@ -18,8 +17,8 @@ namespace {
 class Render : public ::testing::Test {
  protected:
   Render() {
-    write_hdf5(testing::synthetic_table(Grid::paper(3), Storage::mirror_frame), folder_ / "t.h5");
-    write_npy(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder_ / "t.npy");
+    write_table(testing::synthetic_table(Grid::paper(3), Storage::mirror_frame), folder_ / "t.h5");
+    write_table(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder_ / "t.npy");
   }
 
   // Small and coarse, in the test's folder.
@@ -111,7 +110,7 @@ TEST_F(Render, WarnsOfWhatIsClamped) {
   Grid grid = Grid::paper(3);
   grid.alpha = Axis::make(0.1, 0.6, 3, Warp::linear);
   grid.theta = Axis::make(0, 1, 3, Warp::linear);
-  write_hdf5(testing::synthetic_table(grid, Storage::matrix), folder_ / "narrow.h5");
+  write_table(testing::synthetic_table(grid, Storage::matrix), folder_ / "narrow.h5");
   const ProgramResult result = run({"t.h5", "--table-b", "narrow.h5", "--material", "0.8,0.4",
                                     "--material", "0.5,0.5", "--json", "all.json"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -140,7 +139,7 @@ TEST_F(Render, WritesTheSameBytesWithAnyNumberOfThreads) {
 }
 
 TEST_F(Render, RefusesBadInputInOneLineAndWritesNothing) {
-  write_hdf5(Table::empty(Grid::paper(2), Storage::matrix), folder_ / "empty.h5");
+  write_table(Table::empty(Grid::paper(2), Storage::matrix), folder_ / "empty.h5");
   folder_.write("no.h5", "not a table");
   const auto expect_refusal = [&](const std::vector<std::string>& arguments, int exit_code,
                                   const std::vector<std::string>& parts) {

@@ -3,8 +3,8 @@
 // The same bits on any number of threads, through the real program: what is random has its seed.
 #include <gtest/gtest.h>
 
-#include "export/hdf5.h"
 #include "export/same_tables.h"
+#include "export/table_file.h"
 #include "support/program.h"
 
 namespace ltc::test {
@@ -37,7 +37,7 @@ Run run(std::vector<std::string> more) {
   arguments.insert(arguments.end(), {"--output", folder.path().string()});
   const ProgramResult result = run_ltcfit(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  Run run{read_hdf5(folder / "ltc.h5"), {}};
+  Run run{read_table(folder / "ltc.h5"), {}};
   run.table.created.clear();  // the one thing that may differ
   for (const char* name : {"ltc.0.exr", "ltc.1.exr", "ltc.2.exr", "ltc.npy"})
     run.other_files.push_back(read_file(folder / name));

@@ -8,11 +8,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "export/exr.h"
 #include "export/files.h"
-#include "export/hdf5.h"
-#include "export/npy.h"
 #include "export/same_tables.h"
+#include "export/table_file.h"
 #include "scene/coverage.h"
 #include "scene/scene.h"
 #include "support/refused_run.h"
@@ -107,16 +105,16 @@ TEST(GenerateScene, FitsWhatTheShippedScenesNeed) {
     } else {
       EXPECT_EQ(result.out.find("scene  "), std::string::npos) << result.out;
     }
-    const Table table = read_hdf5(folder / "out/ltc.h5");
+    const Table table = read_table(folder / "out/ltc.h5");
     const std::vector<bool> needed = needed_entries(load_scene(scene), table.grid);
     EXPECT_EQ(static_cast<std::size_t>(std::count(needed.begin(), needed.end(), true)), c.needed);
     expect_only_needed(table, needed);
     // No NaN in textures, whose entries are those of the HDF5 file where it has any.
-    const Table textures = read_exr(folder / "out/ltc");
+    const Table textures = read_table(folder / "out/ltc.0.exr");
     for (const auto* values : {&textures.stored, &textures.amplitude, &textures.fresnel})
       for (const float value : *values)
         ASSERT_TRUE(std::isfinite(value));
-    const Table array = read_npy(folder / "out/ltc.npy");
+    const Table array = read_table(folder / "out/ltc.npy");
     for (std::size_t flat = 0; flat < needed.size(); ++flat)
       if (needed[flat]) {
         EXPECT_TRUE(same_bits(textures.stored, table.stored, flat, 9)) << flat;
@@ -158,9 +156,9 @@ TEST(GenerateExtend, KeepsWhatThereIsAndAddsWhatIsLacking) {
   const std::string out =
       run({"--scene", isotropic, "--extend", "first/ltc.h5", "--set", "fit.gauss_newton.steps=2"},
           "second");
-  const Table first = read_hdf5(folder / "first/ltc.h5");
-  const Table alone = read_hdf5(folder / "alone/ltc.h5");
-  const Table second = read_hdf5(folder / "second/ltc.h5");
+  const Table first = read_table(folder / "first/ltc.h5");
+  const Table alone = read_table(folder / "alone/ltc.h5");
+  const Table second = read_table(folder / "second/ltc.h5");
   const std::vector<bool> needed = needed_entries(load_scene(isotropic), first.grid);
   std::size_t kept = 0, added = 0, differ = 0;
   for (std::size_t flat = 0; flat < first.grid.size(); ++flat) {
@@ -246,7 +244,7 @@ TEST(GenerateExtendBadInput, AnotherKindOfTable) {
   const TemporaryDirectory tables;
   const auto expect = [&](const std::string& name, const Table& table,
                           const std::vector<std::string>& parts) {
-    write_hdf5(table, tables / name);
+    write_table(table, tables / name);
     std::vector<std::string> all = parts;
     all.push_back((tables / name).string());
     expect_refused({"generate", "--extend", (tables / name).string()}, 2, all);
@@ -270,8 +268,8 @@ TEST(GenerateExtendBadInput, FilesThatAreNoTable) {
   const fs::path garbage = tables.write("garbage.h5", "no table at all");
   expect_refused({"generate", "--extend", garbage.string()}, 2, {"garbage.h5"});
   // Another format version, and other damages that h5py can do.
-  write_hdf5(testing::synthetic_table(testing::uneven_grid(), Storage::mirror_frame),
-             tables / "good.h5");
+  write_table(testing::synthetic_table(testing::uneven_grid(), Storage::mirror_frame),
+              tables / "good.h5");
   const testing::Finished damaged = testing::run_python(
       "damage_h5.py", (tables / "good.h5").string() + " " + tables.path().string());
   ASSERT_EQ(damaged.exit_code, 0) << damaged.output;

@@ -56,7 +56,7 @@ TEST_F(Streams, ProgressThatCannotBeWrittenIsDropped) {
       EXPECT_EQ(result.out.empty(), plain.out.empty()) << redirection;
     }
   }
-  EXPECT_EQ(read_hdf5(folder_ / "out/ltc.h5").stored, read_hdf5(folder_ / "T.h5").stored);
+  EXPECT_EQ(read_table(folder_ / "out/ltc.h5").stored, read_table(folder_ / "T.h5").stored);
 }
 
 TEST_F(Streams, ResultsThatCannotBeWrittenAreAnError) {
@@ -78,13 +78,13 @@ TEST_F(Streams, ResultsThatCannotBeWrittenAreAnError) {
       EXPECT_EQ(result.err.find("ltcfit: cannot write to standard output"), begin) << result.err;
     }
   // The table is there still.
-  EXPECT_EQ(read_hdf5(folder_ / "out/ltc.h5").stored, read_hdf5(folder_ / "T.h5").stored);
+  EXPECT_EQ(read_table(folder_ / "out/ltc.h5").stored, read_table(folder_ / "T.h5").stored);
 }
 
 TEST_F(Streams, BothClosedIsAnErrorThatNobodyReads) {
   for (const Arguments& arguments : one_of_each())
     EXPECT_EQ(run_redirected(arguments, "<&- >&- 2>&-", folder_).exit_code, 3) << arguments[0];
-  EXPECT_EQ(read_hdf5(folder_ / "out/ltc.h5").stored, read_hdf5(folder_ / "T.h5").stored);
+  EXPECT_EQ(read_table(folder_ / "out/ltc.h5").stored, read_table(folder_ / "T.h5").stored);
 }
 
 TEST_F(Streams, JsonTakesThePlaceOfTheTextOnStandardOutput) {

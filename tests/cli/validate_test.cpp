@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "export/hdf5.h"
-#include "export/npy.h"
+#include "export/table_file.h"
 #include "support/broken_table.h"
 #include "support/reference.h"
 #include "support/refused_run.h"
@@ -112,7 +111,7 @@ TEST_F(Validate, TheCommandsOfAnEntryShowWhatIsStoredAndWhatWasFitted) {
   };
   const Json stored = shown_by("in the table:"), fitted = shown_by("fitted anew:");
   for (const auto& [file, shown] : {std::pair{folder / "bad.h5", stored}, {good(), fitted}}) {
-    const Table table = read_hdf5(file);
+    const Table table = read_table(file);
     const Eigen::Matrix3d expected = table.stored_at(table.grid.flat({2, 1, 1, 2}));
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
@@ -244,12 +243,12 @@ TEST_F(Validate, Passes16BitTexturesAndSaysWhatTheyAre) {
 
 TEST_F(Validate, ListsEachLobeOnce) {
   const TemporaryDirectory folder;
-  Table table = read_hdf5(good());
+  Table table = read_table(good());
   for (std::size_t phi = 0; phi < 4; ++phi) {
     const std::size_t flat = table.grid.flat({2, 1, 0, phi});
     table.set_stored(flat, 1.5 * table.stored_at(flat));
   }
-  write_hdf5(table, folder / "bad.h5");
+  write_table(table, folder / "bad.h5");
   const ProgramResult result =
       run_ltcfit({"validate", "--no-quality", (folder / "bad.h5").string()});
   EXPECT_EQ(result.exit_code, 1);

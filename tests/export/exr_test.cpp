@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the ltcfit authors
 // EXR: pixels and header by OpenEXR's own library and tools, our reader, what stands in for skipped
 // entries, and everything that must be refused.
-#include "export/exr.h"
+#include "export/table_file.h"
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -101,6 +101,10 @@ float expected_value(const Table& table, int file, char channel, std::size_t ent
   }
 }
 
+std::string ending(int file) {
+  return "." + std::to_string(file) + ".exr";
+}
+
 // How many pixels differ from what they must be, in all channels of all files; `rounded` is applied
 // to the expected values.
 int wrong_pixels(const Table& table, const std::filesystem::path& prefix,
@@ -109,7 +113,8 @@ int wrong_pixels(const Table& table, const std::filesystem::path& prefix,
   const auto [n_alpha, n_lambda, n_theta, n_phi] = table.grid.shape();
   for (int file = 0; file < 3; ++file) {
     for (const char channel : {'R', 'G', 'B', 'A'}) {
-      const Image image = read_channel(exr_path(prefix, file), std::string(1, channel).c_str());
+      const Image image =
+          read_channel(prefix.string() + ending(file), std::string(1, channel).c_str());
       EXPECT_EQ(image.width, static_cast<int>(n_phi * n_lambda));
       EXPECT_EQ(image.height, static_cast<int>(n_theta * n_alpha));
       for (std::size_t a = 0; a < n_alpha; ++a)
@@ -132,7 +137,7 @@ float as_half(float value) {
 
 std::string refusal(const std::filesystem::path& prefix) {
   try {
-    read_exr(prefix);
+    read_table(prefix.string() + ending(0));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -141,27 +146,27 @@ std::string refusal(const std::filesystem::path& prefix) {
 
 TEST(Exr, OpenExrFindsEveryValueInItsTileAndChannel) {
   const TemporaryFolder folder;
-  write_exr(example(), folder / "t", false);
+  write_table(example(), folder / "t.0.exr");
   EXPECT_EQ(wrong_pixels(example(), folder / "t", as_is), 0);
-  write_exr(example(), folder / "h", true);
+  write_table(example(), folder / "h.0.exr", {true});
   EXPECT_EQ(wrong_pixels(example(), folder / "h", as_half), 0);
 }
 
 TEST(Exr, PixelCheckSeesATableLaidOutOtherwise) {
   const TemporaryFolder folder;
-  write_exr(example(), folder / "t", false);
+  write_table(example(), folder / "t.0.exr");
   Table other = example();
   other.stored[9 * 30 + 1] += 1;
   other.amplitude[31] += 1;
   EXPECT_EQ(wrong_pixels(other, folder / "t", as_is), 2);
-  write_exr(example(), folder / "h", true);
+  write_table(example(), folder / "h.0.exr", {true});
   EXPECT_GT(wrong_pixels(example(), folder / "h", as_is), 100);
 }
 
 TEST(Exr, PaperTableIsAnAtlasOf64Squared) {
   const TemporaryFolder folder;
   const Table table = testing::synthetic_table(Grid::paper(), Storage::matrix);
-  write_exr(table, folder / "t", false);
+  write_table(table, folder / "t.0.exr");
   EXPECT_EQ(wrong_pixels(table, folder / "t", as_is), 0);
   EXPECT_EQ(read_channel(folder / "t.0.exr", "R").width, 64);
   EXPECT_EQ(read_channel(folder / "t.0.exr", "R").height, 64);
@@ -178,7 +183,7 @@ TEST(Exr, ToolsShowSizeChannelsAndAttributes) {
   const TemporaryFolder folder;
   const Table table = testing::synthetic_table(Grid::paper(2), Storage::matrix);
   for (const bool half : {false, true}) {
-    write_exr(table, folder / "t", half);
+    write_table(table, folder / "t.0.exr", {half});
     const Finished header = testing::run("exrheader " + (folder / "t.1.exr").string());
     ASSERT_EQ(header.exit_code, 0) << header.output;
     const std::string depth = half ? "16-bit floating-point" : "32-bit floating-point";
@@ -202,7 +207,7 @@ TEST(Exr, ToolsShowSizeChannelsAndAttributes) {
 
 TEST(Exr, ExrinfoTellsOfAFileThatIsCutShort) {
   const TemporaryFolder folder;
-  write_exr(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "t", false);
+  write_table(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "t.0.exr");
   std::filesystem::resize_file(folder / "t.1.exr", 300);
   const std::string info = printed_by_exrinfo(folder / "t.1.exr");
   EXPECT_NE(info.find("ERROR"), std::string::npos) << info;
@@ -211,8 +216,8 @@ TEST(Exr, ExrinfoTellsOfAFileThatIsCutShort) {
 TEST(Exr, OurReaderGivesTheValuesBack) {
   const TemporaryFolder folder;
   const Table table = example();
-  write_exr(table, folder / "t", false);
-  const Table found = read_exr(folder / "t");
+  write_table(table, folder / "t.0.exr");
+  const Table found = read_table(folder / "t.0.exr");
   EXPECT_EQ(found.grid, table.grid);
   EXPECT_EQ(found.storage, table.storage);
   testing::expect_same_bits(found.stored, table.stored, "stored");
@@ -221,8 +226,8 @@ TEST(Exr, OurReaderGivesTheValuesBack) {
   EXPECT_EQ(found.status, std::vector<Status>(table.grid.size(), Status::fitted));
   EXPECT_TRUE(std::isnan(found.sw_loss[0]));
 
-  write_exr(table, folder / "h", true);
-  const Table half = read_exr(folder / "h");
+  write_table(table, folder / "h.0.exr", {true});
+  const Table half = read_table(folder / "h.0.exr");
   for (std::size_t i = 0; i < table.stored.size(); ++i)
     EXPECT_EQ(half.stored[i], as_half(table.stored[i]));
   EXPECT_EQ(found.precision, Precision::single);
@@ -234,18 +239,18 @@ TEST(Exr, WhetherATableIsRefinedIsKeptAndMayBeUnknown) {
   for (const std::optional<bool> refined : {std::optional<bool>(), {false}, {true}}) {
     Table table = example();
     table.refined = refined;
-    write_exr(table, folder / "t", false);
-    EXPECT_EQ(read_exr(folder / "t").refined, refined);
+    write_table(table, folder / "t.0.exr");
+    EXPECT_EQ(read_table(folder / "t.0.exr").refined, refined);
   }
 }
 
 TEST(Exr, TheSameTableGivesTheSameBytes) {
   const TemporaryFolder folder;
-  write_exr(example(), folder / "a", false);
+  write_table(example(), folder / "a.0.exr");
   ::sleep(1);  // a recorded time would show
-  write_exr(example(), folder / "b", false);
+  write_table(example(), folder / "b.0.exr");
   for (int file = 0; file < 3; ++file)
-    EXPECT_EQ(bytes_of(exr_path(folder / "a", file)), bytes_of(exr_path(folder / "b", file)));
+    EXPECT_EQ(bytes_of(folder / ("a" + ending(file))), bytes_of(folder / ("b" + ending(file))));
 }
 
 // By the definition, entry against entry; the program goes in waves.
@@ -289,7 +294,7 @@ TEST(Exr, SkippedAndFailedEntriesTakeTheNearestFitted) {
     filled.amplitude[entry] = table.amplitude[source];
     filled.fresnel[entry] = table.fresnel[source];
   }
-  write_exr(table, folder / "t", false);
+  write_table(table, folder / "t.0.exr");
   EXPECT_EQ(wrong_pixels(filled, folder / "t", as_is), 0);
 }
 
@@ -298,16 +303,16 @@ TEST(Exr, WhatATextureCannotHoldIsRefusedAndNothingIsWritten) {
   Table all_skipped = example();
   for (std::size_t i = 0; i < all_skipped.grid.size(); ++i)
     skip(all_skipped, i);
-  EXPECT_THROW(write_exr(all_skipped, folder / "t", false), InputError);
+  EXPECT_THROW(write_table(all_skipped, folder / "t.0.exr"), InputError);
   Table no_fresnel = example();
   no_fresnel.fresnel[5] = nan;
-  EXPECT_THROW(write_exr(no_fresnel, folder / "t", false), InputError);
+  EXPECT_THROW(write_table(no_fresnel, folder / "t.0.exr"), InputError);
   Table large = example();
   large.stored[100] = 70000;
-  EXPECT_THROW(write_exr(large, folder / "t", true), InputError);
+  EXPECT_THROW(write_table(large, folder / "t.0.exr", {true}), InputError);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-  EXPECT_NO_THROW(write_exr(large, folder / "t", false));
-  EXPECT_THROW(write_exr(example(), folder / "none/t", false), IoError);
+  EXPECT_NO_THROW(write_table(large, folder / "t.0.exr"));
+  EXPECT_THROW(write_table(example(), folder / "none/t.0.exr"), IoError);
 }
 
 // A file of the example with something changed in its header; pixels are 0.5.
@@ -340,7 +345,7 @@ Imf::Header without_attribute(const Imf::Header& header, const std::string& name
 
 TEST(Exr, HeadersThatDisagreeAreRefusedByFileAndFault) {
   const TemporaryFolder folder;
-  write_exr(example(), folder / "t", false);
+  write_table(example(), folder / "t.0.exr");
   const std::filesystem::path good = folder / "good.exr";
   std::filesystem::copy_file(folder / "t.1.exr", good);
   const auto text = [](const char* name, const std::string& value) {
@@ -407,7 +412,7 @@ TEST(Exr, HeadersThatDisagreeAreRefusedByFileAndFault) {
 
 TEST(Exr, DamagedBytesAreRefusedOrHarmless) {
   const TemporaryFolder folder;
-  write_exr(example(), folder / "t", false);
+  write_table(example(), folder / "t.0.exr");
   const std::string whole = bytes_of(folder / "t.2.exr");
   ASSERT_GT(whole.size(), 1000u);
   for (std::size_t size = 0; size < whole.size(); size += 13) {
@@ -426,10 +431,10 @@ TEST(Exr, DamagedBytesAreRefusedOrHarmless) {
 
 TEST(Exr, AMissingFileIsAnIoErrorThatNamesIt) {
   const TemporaryFolder folder;
-  write_exr(example(), folder / "t", false);
+  write_table(example(), folder / "t.0.exr");
   std::filesystem::remove(folder / "t.2.exr");
   try {
-    read_exr(folder / "t");
+    read_table(folder / "t.0.exr");
     FAIL();
   } catch (const IoError& error) {
     EXPECT_NE(std::string(error.what()).find("t.2.exr"), std::string::npos) << error.what();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "export/files.h"
-#include "export/hdf5.h"
+#include "export/table_file.h"
 #include "table/lookup.h"
 #include "table/synthetic.h"
 #include "test_paths.h"
@@ -67,7 +67,7 @@ TEST(FilesDocument, PythonExampleAgreesWithOurLookUp) {
                                       std::pair{testing::uneven_grid(), Storage::roughness_scaled},
                                       std::pair{testing::uneven_grid(), Storage::mirror_frame}}) {
     const Table table = testing::synthetic_table(grid, storage);
-    write_hdf5(table, folder / "t.h5");
+    write_table(table, folder / "t.h5");
     EXPECT_LT(largest_difference(folder, table), rounding) << storage_name(storage);
   }
 }
@@ -75,7 +75,7 @@ TEST(FilesDocument, PythonExampleAgreesWithOurLookUp) {
 TEST(FilesDocument, ComparisonSeesAnotherStorage) {
   const TemporaryFolder folder;
   Table table = testing::synthetic_table(testing::uneven_grid(), Storage::roughness_scaled);
-  write_hdf5(table, folder / "t.h5");
+  write_table(table, folder / "t.h5");
   table.storage = Storage::mirror_frame;
   EXPECT_GT(largest_difference(folder, table), 0.1);
 }

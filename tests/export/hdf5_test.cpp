@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
 // HDF5: read back by h5py and h5dump, by our own reader, and everything that must be refused.
-#include "export/hdf5.h"
+#include "export/table_file.h"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -87,7 +87,7 @@ std::set<std::string> lines_of(const std::string& text) {
 
 // Writes the example as t.h5 and every damaged copy of it; the names of the damages.
 std::set<std::string> write_damaged(const TemporaryFolder& folder) {
-  write_hdf5(example(), folder / "t.h5");
+  write_table(example(), folder / "t.h5");
   const Finished damage = testing::run_python(
       "damage_h5.py", (folder / "t.h5").string() + " " + folder.path().string());
   EXPECT_EQ(damage.exit_code, 0) << damage.output;
@@ -97,7 +97,7 @@ std::set<std::string> write_damaged(const TemporaryFolder& folder) {
 // The message of the InputError that reading throws; empty if it throws none.
 std::string refusal(const std::filesystem::path& path) {
   try {
-    read_hdf5(path);
+    read_table(path);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -108,7 +108,7 @@ TEST(Hdf5, H5pyFindsTypesShapesAttributesAndValues) {
   const TemporaryFolder folder;
   Table table = example();
   table.refined = true;
-  write_hdf5(table, folder / "t.h5");
+  write_table(table, folder / "t.h5");
   testing::write_bytes(folder / "t.json", expectation(table).dump());
   const Finished check = testing::run_python(
       "check_h5.py", (folder / "t.h5").string() + " " + (folder / "t.json").string());
@@ -136,14 +136,14 @@ TEST(Hdf5, WhetherATableIsRefinedIsKeptAndMayBeUnknown) {
   for (const std::optional<bool> refined : {std::optional<bool>(), {false}, {true}}) {
     Table table = example();
     table.refined = refined;
-    write_hdf5(table, folder / "t.h5");
-    EXPECT_EQ(read_hdf5(folder / "t.h5").refined, refined);
+    write_table(table, folder / "t.h5");
+    EXPECT_EQ(read_table(folder / "t.h5").refined, refined);
   }
 }
 
 TEST(Hdf5, H5dumpReadsTheFile) {
   const TemporaryFolder folder;
-  write_hdf5(example(), folder / "t.h5");
+  write_table(example(), folder / "t.h5");
   const Finished dump = testing::run("h5dump -A " + (folder / "t.h5").string());
   EXPECT_EQ(dump.exit_code, 0) << dump.output;
   EXPECT_NE(dump.output.find("DATASET \"matrix\""), std::string::npos);
@@ -155,11 +155,11 @@ TEST(Hdf5, OurReaderGivesTheSameTableBack) {
   const TemporaryFolder folder;
   for (const Grid& grid : {testing::uneven_grid(), Grid::paper({1, 2, 1, 3})}) {
     Table table = testing::synthetic_table(grid, Storage::roughness_scaled);
-    write_hdf5(table, folder / "t.h5");
-    testing::expect_same_tables(read_hdf5(folder / "t.h5"), table);
+    write_table(table, folder / "t.h5");
+    testing::expect_same_tables(read_table(folder / "t.h5"), table);
   }
-  write_hdf5(example(), folder / "t.h5");
-  testing::expect_same_tables(read_hdf5(folder / "t.h5"), example());
+  write_table(example(), folder / "t.h5");
+  testing::expect_same_tables(read_table(folder / "t.h5"), example());
 }
 
 TEST(Hdf5, ALongConfigAndAnEmptyTextGoThereAndBack) {
@@ -167,22 +167,22 @@ TEST(Hdf5, ALongConfigAndAnEmptyTextGoThereAndBack) {
   Table table = example();
   table.config = std::string(200000, 'x') + "\n[fit]";  // beyond the 64 KiB of a plain attribute
   table.generator.clear();
-  write_hdf5(table, folder / "t.h5");
-  testing::expect_same_tables(read_hdf5(folder / "t.h5"), table);
+  write_table(table, folder / "t.h5");
+  testing::expect_same_tables(read_table(folder / "t.h5"), table);
 }
 
 TEST(Hdf5, TheSameTableGivesTheSameBytes) {
   const TemporaryFolder folder;
-  write_hdf5(example(), folder / "a.h5");
+  write_table(example(), folder / "a.h5");
   ::sleep(1);  // a recorded time would show
-  write_hdf5(example(), folder / "b.h5");
+  write_table(example(), folder / "b.h5");
   EXPECT_EQ(bytes_of(folder / "a.h5"), bytes_of(folder / "b.h5"));
 }
 
 TEST(Hdf5, FixedLengthTextIsReadToo) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_damaged(folder).contains("format_is_bytes"));
-  testing::expect_same_tables(read_hdf5(folder / "format_is_bytes.h5"), example());
+  testing::expect_same_tables(read_table(folder / "format_is_bytes.h5"), example());
 }
 
 TEST(Hdf5, DamagedFilesAreRefusedByNameAndFault) {
@@ -286,7 +286,7 @@ TEST(Hdf5, WhatIsNoHdf5FileIsRefusedAndNothingIsPrinted) {
 
 TEST(Hdf5, TruncatedAnywhereIsRefused) {
   const TemporaryFolder folder;
-  write_hdf5(example(), folder / "t.h5");
+  write_table(example(), folder / "t.h5");
   const std::string whole = bytes_of(folder / "t.h5");
   ASSERT_GT(whole.size(), 10000u);
   for (std::size_t size = 0; size < whole.size(); size += 97) {
@@ -300,7 +300,7 @@ TEST(Hdf5, TruncatedAnywhereIsRefused) {
 // A flipped bit may leave a table, or one of other content; it must not crash or leak.
 TEST(Hdf5, FlippedBitsAreRefusedOrHarmlessAndNoHandleStaysOpen) {
   const TemporaryFolder folder;
-  write_hdf5(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "t.h5");
+  write_table(testing::synthetic_table(Grid::paper(2), Storage::matrix), folder / "t.h5");
   const std::string whole = bytes_of(folder / "t.h5");
   int refused = 0;
   for (std::size_t i = 0; i < whole.size(); i += 29) {
@@ -315,9 +315,10 @@ TEST(Hdf5, FlippedBitsAreRefusedOrHarmlessAndNoHandleStaysOpen) {
 
 TEST(Hdf5, MissingAndUnreadableFilesAreIoErrorsThatNameThem) {
   const TemporaryFolder folder;
-  for (const std::filesystem::path& path : {folder / "none.h5", folder.path()}) {
+  std::filesystem::create_directory(folder / "folder.h5");
+  for (const std::filesystem::path& path : {folder / "none.h5", folder / "folder.h5"}) {
     try {
-      read_hdf5(path);
+      read_table(path);
       FAIL() << path;
     } catch (const IoError& error) {
       EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
@@ -327,23 +328,23 @@ TEST(Hdf5, MissingAndUnreadableFilesAreIoErrorsThatNameThem) {
 
 TEST(Hdf5, WritingWhereNothingCanBeWrittenIsAnIoErrorAndLeavesNothing) {
   const TemporaryFolder folder;
-  EXPECT_THROW(write_hdf5(example(), folder / "none/t.h5"), IoError);
+  EXPECT_THROW(write_table(example(), folder / "none/t.h5"), IoError);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Hdf5, AnInconsistentTableIsRefusedAndAnOlderFileStands) {
   const TemporaryFolder folder;
-  write_hdf5(example(), folder / "t.h5");
+  write_table(example(), folder / "t.h5");
   const std::string before = bytes_of(folder / "t.h5");
   Table nan = example();
   nan.stored[9] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(write_hdf5(nan, folder / "t.h5"), InputError);
+  EXPECT_THROW(write_table(nan, folder / "t.h5"), InputError);
   Table shorter = example();
   shorter.amplitude.pop_back();
-  EXPECT_THROW(write_hdf5(shorter, folder / "t.h5"), InputError);
+  EXPECT_THROW(write_table(shorter, folder / "t.h5"), InputError);
   Table unordered = example();
   std::swap(unordered.grid.phi.nodes[0], unordered.grid.phi.nodes[1]);
-  EXPECT_THROW(write_hdf5(unordered, folder / "t.h5"), InputError);
+  EXPECT_THROW(write_table(unordered, folder / "t.h5"), InputError);
   EXPECT_EQ(bytes_of(folder / "t.h5"), before);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
 // NPY: read back by NumPy, by our reader, the published table, and everything that must be refused.
-#include "export/npy.h"
+#include "export/table_file.h"
 
 #include <gtest/gtest.h>
 
@@ -12,10 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "export/exr.h"
 #include "export/files.h"
-#include "export/hdf5.h"
-#include "export/reader.h"
 #include "export/same_tables.h"
 #include "support/reference.h"
 #include "table/synthetic.h"
@@ -39,7 +36,7 @@ Table example(Storage storage) {
 
 std::string refusal(const std::filesystem::path& path) {
   try {
-    read_npy(path);
+    read_table(path);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -63,14 +60,14 @@ TEST(Npy, NumpyFindsTheMatrixOfEveryNodeWhateverTheStorage) {
   for (const Storage storage : {Storage::matrix, Storage::mirror_frame}) {
     const Table table = example(storage);
     testing::write_bytes(folder / "t.json", expectation(table).dump());
-    write_npy(table, folder / "t.npy");
+    write_table(table, folder / "t.npy");
     const Finished check = testing::run_python("check_npy.py", arguments);
     EXPECT_EQ(check.exit_code, 0) << check.output;
   }
   // And the check can fail: S itself is not M.
   Table stored = example(Storage::mirror_frame);
   stored.storage = Storage::matrix;
-  write_npy(stored, folder / "t.npy");
+  write_table(stored, folder / "t.npy");
   const Finished check = testing::run_python("check_npy.py", arguments);
   EXPECT_EQ(check.exit_code, 1);
   EXPECT_EQ(check.output, "check_npy: other values\n");
@@ -79,8 +76,8 @@ TEST(Npy, NumpyFindsTheMatrixOfEveryNodeWhateverTheStorage) {
 TEST(Npy, OurReaderGivesTheMatricesBack) {
   const TemporaryFolder folder;
   const Table table = example(Storage::matrix);
-  write_npy(table, folder / "t.npy");
-  const Table found = read_npy(folder / "t.npy");
+  write_table(table, folder / "t.npy");
+  const Table found = read_table(folder / "t.npy");
   EXPECT_EQ(found.grid, table.grid);
   EXPECT_EQ(found.storage, Storage::matrix);
   testing::expect_same_bits(found.stored, table.stored, "stored");
@@ -92,22 +89,23 @@ TEST(Npy, OurReaderGivesTheMatricesBack) {
 
 TEST(Npy, TheSameTableGivesTheSameBytes) {
   const TemporaryFolder folder;
-  write_npy(example(Storage::matrix), folder / "a.npy");
-  write_npy(example(Storage::matrix), folder / "b.npy");
+  write_table(example(Storage::matrix), folder / "a.npy");
+  write_table(example(Storage::matrix), folder / "b.npy");
   EXPECT_EQ(bytes_of(folder / "a.npy"), bytes_of(folder / "b.npy"));
 }
 
 TEST(Npy, OtherAxesThanThePapersAreRefused) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(npy_can_hold(Grid::paper({3, 1, 5, 4})));
-  EXPECT_FALSE(npy_can_hold(testing::uneven_grid()));
+  const Format& npy = *find_format("t.npy");
+  EXPECT_EQ(npy.why_not(Grid::paper({3, 1, 5, 4}), Storage::matrix), "");
+  EXPECT_NE(npy.why_not(testing::uneven_grid(), Storage::matrix), "");
   Grid other = Grid::paper();
   other.alpha_min = 1e-3;
-  EXPECT_FALSE(npy_can_hold(other));
-  EXPECT_THROW(write_npy(testing::synthetic_table(testing::uneven_grid(), Storage::matrix),
-                         folder / "t.npy"),
+  EXPECT_NE(npy.why_not(other, Storage::matrix), "");
+  EXPECT_THROW(write_table(testing::synthetic_table(testing::uneven_grid(), Storage::matrix),
+                           folder / "t.npy"),
                InputError);
-  EXPECT_THROW(write_npy(example(Storage::matrix), folder / "none/t.npy"), IoError);
+  EXPECT_THROW(write_table(example(Storage::matrix), folder / "none/t.npy"), IoError);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
@@ -121,7 +119,7 @@ std::string array_of(std::string dictionary) {
 TEST(Npy, OtherFilesAreRefusedByNameAndFault) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "t.npy";
-  write_npy(example(Storage::matrix), path);
+  write_table(example(Storage::matrix), path);
   const std::string whole = bytes_of(path);
   std::string partly_nan = whole;
   std::memcpy(partly_nan.data() + whole.size() - 4, &nan, 4);
@@ -181,7 +179,7 @@ TEST(Npy, ThePublishedTableReadsAsThePapersGrid) {
   if (!std::filesystem::exists(published_table()))
     GTEST_SKIP() << "no reference table at " << published_table()
                  << "; set LTCFIT_REFERENCE_DIR to the folder that has it";
-  const Table table = read_npy(published_table());
+  const Table table = read_table(published_table());
   EXPECT_EQ(table.grid, Grid::paper());
   // Seen from above, an isotropic lobe of roughness 1 is the same in x and y, to within the fit.
   const Eigen::Matrix3d rough = table.matrix_at(table.grid.flat({7, 7, 0, 0}));
@@ -192,9 +190,9 @@ TEST(Npy, ThePublishedTableReadsAsThePapersGrid) {
 TEST(ReadTable, GoesBySuffix) {
   const TemporaryFolder folder;
   Table table = testing::synthetic_table(Grid::paper(2), Storage::matrix);
-  write_hdf5(table, folder / "t.h5");
-  write_exr(table, folder / "t", false);
-  write_npy(table, folder / "t.npy");
+  write_table(table, folder / "t.h5");
+  write_table(table, folder / "t.0.exr");
+  write_table(table, folder / "t.npy");
   for (const char* name : {"t.h5", "t.npy", "t.0.exr", "t.1.exr", "t.2.exr"})
     testing::expect_same_bits(read_table(folder / name).stored, table.stored, name);
   for (const char* name : {"t.exr", "t.3.exr", "t.txt", "t"})
@@ -213,23 +211,23 @@ Table of_both_roughnesses() {
 
 void write_as_npy(Table table, const std::filesystem::path& path) {
   table.grid.layout = Layout::alpha_lambda;  // the array says nothing of it
-  write_npy(table, path);
+  write_table(table, path);
 }
 
 TEST(Npy, TheLayoutIsToldBySymmetryOrByTheReader) {
   const TemporaryFolder folder;
   const Table both = of_both_roughnesses();
   write_as_npy(both, folder / "both.npy");
-  write_npy(testing::synthetic_table(Grid::paper(4), Storage::matrix), folder / "ratio.npy");
-  EXPECT_EQ(read_npy(folder / "both.npy").grid, both.grid);
-  EXPECT_EQ(read_npy(folder / "ratio.npy").grid, Grid::paper(4));
-  EXPECT_EQ(read_npy(folder / "both.npy", Layout::alpha_lambda).grid, Grid::paper(4));
-  EXPECT_EQ(read_npy(folder / "ratio.npy", Layout::alphax_alphay).grid, both.grid);
+  write_table(testing::synthetic_table(Grid::paper(4), Storage::matrix), folder / "ratio.npy");
+  EXPECT_EQ(read_table(folder / "both.npy").grid, both.grid);
+  EXPECT_EQ(read_table(folder / "ratio.npy").grid, Grid::paper(4));
+  EXPECT_EQ(read_table(folder / "both.npy", Layout::alpha_lambda).grid, Grid::paper(4));
+  EXPECT_EQ(read_table(folder / "ratio.npy", Layout::alphax_alphay).grid, both.grid);
   // No exchange of axes that differ.
-  write_npy(testing::synthetic_table(Grid::paper({3, 2, 2, 2}), Storage::matrix),
-            folder / "uneven.npy");
-  EXPECT_EQ(read_npy(folder / "uneven.npy").grid.layout, Layout::alpha_lambda);
-  EXPECT_THROW(write_npy(both, folder / "t.npy"), InputError);
+  write_table(testing::synthetic_table(Grid::paper({3, 2, 2, 2}), Storage::matrix),
+              folder / "uneven.npy");
+  EXPECT_EQ(read_table(folder / "uneven.npy").grid.layout, Layout::alpha_lambda);
+  EXPECT_THROW(write_table(both, folder / "t.npy"), InputError);
 }
 
 TEST(Npy, ThePublishedTablesAreToldApart) {
@@ -238,8 +236,8 @@ TEST(Npy, ThePublishedTablesAreToldApart) {
   if (!std::filesystem::exists(other) || !std::filesystem::exists(published))
     GTEST_SKIP() << "no " << other << " or " << published
                  << "; set LTCFIT_REFERENCE_DIR to the folder that has them";
-  EXPECT_EQ(read_npy(other).grid.layout, Layout::alphax_alphay);
-  EXPECT_EQ(read_npy(published).grid.layout, Layout::alpha_lambda);
+  EXPECT_EQ(read_table(other).grid.layout, Layout::alphax_alphay);
+  EXPECT_EQ(read_table(published).grid.layout, Layout::alpha_lambda);
 }
 
 }  // namespace

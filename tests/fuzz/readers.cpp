@@ -12,9 +12,8 @@
 #include "core/error.h"
 #include "export/checkpoint.h"
 #include "export/consistency.h"
-#include "export/exr.h"
-#include "export/hdf5.h"
-#include "export/npy.h"
+#include "export/hdf5_guard.h"
+#include "export/table_file.h"
 #include "scene/coverage.h"
 #include "scene/readers.h"
 #include "table/synthetic.h"
@@ -49,12 +48,12 @@ void use(const Scene& scene) {
 
 void read_h5_bytes(const fs::path& folder, std::string_view bytes) {
   const fs::path path = written(folder / "table.h5", bytes);
-  use(read_hdf5(path), path);
+  use(read_table(path), path);
 }
 
 void read_npy_bytes(const fs::path& folder, std::string_view bytes) {
   const fs::path path = written(folder / "table.npy", bytes);
-  use(read_npy(path), path);
+  use(read_table(path), path);
 }
 
 // A crash of the HDF5 library is a find here, for the guarded reader to be tried with.
@@ -84,11 +83,11 @@ void read_checkpoint_bytes(const fs::path& folder, std::string_view bytes) {
 
 // The bytes are the first of the three files; the others are those of a good table.
 void read_exr_bytes(const fs::path& folder, std::string_view bytes) {
-  const fs::path prefix = folder / "table";
-  if (!fs::exists(exr_path(prefix, 1)))
-    write_exr(testing::synthetic_table(Grid::paper(2), Storage::matrix), prefix, false);
-  written(exr_path(prefix, 0), bytes);
-  use(read_exr(prefix), prefix);
+  const fs::path first = folder / "table.0.exr";
+  if (!fs::exists(folder / "table.1.exr"))
+    write_table(testing::synthetic_table(Grid::paper(2), Storage::matrix), first);
+  written(first, bytes);
+  use(read_table(first), first);
 }
 
 void read_config_bytes(const fs::path& folder, std::string_view bytes) {

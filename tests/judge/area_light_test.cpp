@@ -14,7 +14,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "export/npy.h"
+#include "export/table_file.h"
 #include "support/reference.h"
 #include "support/refusal.h"
 #include "table/lookup.h"
@@ -181,7 +181,7 @@ TEST(AreaLight, ThePublishedTableErrsByTwoPercentOfTheLight) {
   const std::filesystem::path path = test::reference_file("upstream_alpha_lambda_theta_phi.npy");
   if (!std::filesystem::exists(path))
     GTEST_SKIP() << "no " << path << "; set LTCFIT_REFERENCE_DIR";
-  const Table table = read_npy(path);
+  const Table table = read_table(path);
   AreaLightSettings settings;
   settings.samples = 4096;
   AreaLightJudge judge(settings);

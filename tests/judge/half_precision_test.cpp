@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "export/exr.h"
 #include "export/files.h"
+#include "export/table_file.h"
 #include "table/synthetic.h"
 
 namespace ltc {
@@ -54,8 +54,8 @@ TEST(HalfPrecision, WhatTheFilesHoldHasNoErrorLeft) {
   const testing::TemporaryFolder folder;
   for (const Storage storage : {Storage::matrix, Storage::mirror_frame}) {
     const Table table = table_of(storage);
-    write_exr(table, folder / "t", true);
-    const Table kept = read_exr(folder / "t");
+    write_table(table, folder / "t.0.exr", {true});
+    const Table kept = read_table(folder / "t.0.exr");
     for (std::size_t flat = 0; flat < table.grid.size(); ++flat)
       ASSERT_EQ(kept.stored_at(flat), rounded(table.stored_at(flat), Precision::half)) << flat;
     for (const double error : errors_of(kept))

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "export/reader.h"
+#include "export/table_file.h"
 #include "judge/held_out.h"
 #include "judge/quality_summary.h"
 #include "pipeline/generate.h"

@@ -5,6 +5,7 @@ import pathlib
 import re
 import tempfile
 import threading
+import warnings
 
 import h5py
 import ltcfit
@@ -80,3 +81,17 @@ raises(ZeroDivisionError, ltcfit.generate, set=SLOW, progress=lambda *_: 1 / 0)
 threading.Timer(0.5, lambda: __import__("_thread").interrupt_main()).start()
 raises(KeyboardInterrupt, ltcfit.generate, set=SLOW)
 assert math.isfinite(ltcfit.fit(0.4, 0.1, 1.0, 0.5).loss)  # and it goes on
+
+# A scene asks for a part of the table, which is then extended to the whole, bit for bit.
+with tempfile.TemporaryDirectory() as folder:
+    scene, part = pathlib.Path(folder) / "s.gltf", pathlib.Path(folder) / "part.h5"
+    scene.write_text('{"asset": {"version": "2.0"}, "materials": [{"pbrMetallicRoughness": {"roughnessFactor": 0.3},'
+                     ' "extensions": {"EXT_felt": {"feltRoughnessFactor": 0.3}}}]}')
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        few = ltcfit.generate(set=SMALL, scene=scene)
+    assert len(heard) == 1 and "EXT_felt" in str(heard[0].message), heard
+    assert 0 < np.isnan(few.loss).sum() < few.loss.size
+    few.write(part)
+    assert np.array_equal(ltcfit.generate(set=SMALL, extend=part).stored, table.stored)
+    raises(ltcfit.InputError, ltcfit.generate, set=SMALL, extend=part.with_suffix(".npy"))

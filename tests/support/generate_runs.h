@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "export/hdf5.h"
+#include "export/table_file.h"
 #include "support/program.h"
 #include "test_paths.h"
 
@@ -74,7 +74,7 @@ inline Files files_in(const std::filesystem::path& folder) {
   for (const std::string& name : names_in(folder))
     files[name] = read_file(folder / name);
   if (const auto table = files.find("ltc.h5"); table != files.end()) {
-    const std::string created = read_hdf5(folder / "ltc.h5").created;
+    const std::string created = read_table(folder / "ltc.h5").created;
     const std::size_t place = table->second.find(created);
     EXPECT_FALSE(created.empty());
     EXPECT_NE(place, std::string::npos);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-#include "cli/checkpoint_keeper.h"
+#include "pipeline/checkpoint_keeper.h"
 
 #include <fmt/format.h>
 
@@ -8,20 +8,20 @@
 #include <system_error>
 #include <utility>
 
-#include "cli/output.h"
 #include "core/error.h"
 #include "core/uninterrupted.h"
 #include "export/checkpoint.h"
 #include "fit/fit_table.h"
 
-namespace ltc::cli {
+namespace ltc {
 
 namespace fs = std::filesystem;
 
-std::string with_way_on(const std::string& message, const fs::path& checkpoint) {
+std::string with_way_on(const std::string& message, const fs::path& checkpoint,
+                        const std::string& resume_name) {
   std::error_code ignored;
   return fs::exists(checkpoint, ignored)
-             ? fmt::format("{}; --resume goes on from {}", message, checkpoint.string())
+             ? fmt::format("{}; {} goes on from {}", message, resume_name, checkpoint.string())
              : message;
 }
 
@@ -41,10 +41,10 @@ void CheckpointKeeper::guard(const std::function<void()>& work) {
     guard_stops(work);
   } catch (const InputError& error) {
     save_if_possible();
-    throw InputError(with_way_on(error.what(), task_.file));
+    throw InputError(with_way_on(error.what(), task_.file, task_.resume_name));
   } catch (const IoError& error) {
     save_if_possible();
-    throw IoError(with_way_on(error.what(), task_.file));
+    throw IoError(with_way_on(error.what(), task_.file, task_.resume_name));
   }
 }
 
@@ -67,7 +67,7 @@ void CheckpointKeeper::guard_stops(const std::function<void()>& work) {
     if (!exists())
       throw;
     write_if_new();
-    throw Interrupted(with_way_on("interrupted", task_.file));
+    throw Interrupted(with_way_on("interrupted", task_.file, task_.resume_name));
   }
 }
 
@@ -120,20 +120,20 @@ void CheckpointKeeper::remove() {
         fmt::format("cannot remove checkpoint {}: {}", task_.file.string(), error.message()));
 }
 
-std::unique_ptr<FitJournal> open_journal(const CheckpointTask& task, bool resume) {
+std::unique_ptr<FitJournal> open_journal(const CheckpointTask& task, bool resume,
+                                         const std::function<void(const std::string&)>& warn) {
   std::error_code ignored;
   const bool exists = fs::exists(task.file, ignored);
   if (exists && !resume)
     throw InputError(
-        fmt::format("{} holds the fits of a run that did not end; go on with --resume, "
-                    "or remove it to begin anew",
-                    task.file.string()));
+        fmt::format("{} holds the fits of a run that did not end; go on with {}, or remove it to "
+                    "begin anew",
+                    task.file.string(), task.resume_name));
   if (exists)
     return std::make_unique<FitJournal>(read_checkpoint(task.config, task.needed, task.file));
-  if (resume)
-    tell(
-        fmt::format("ltcfit: no checkpoint {}; starting from the beginning\n", task.file.string()));
+  if (resume && warn)
+    warn(fmt::format("no checkpoint {}; starting from the beginning", task.file.string()));
   return std::make_unique<FitJournal>(task.config.grid.size(), sweep_count(task.config.fit));
 }
 
-}  // namespace ltc::cli
+}  // namespace ltc

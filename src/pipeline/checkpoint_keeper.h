@@ -17,18 +17,20 @@
 #include "core/progress.h"
 #include "fit/fit_journal.h"
 
-namespace ltc::cli {
+namespace ltc {
 
 // What a checkpoint is of, and where it lies.
 struct CheckpointTask {
   std::filesystem::path file;
   const Config& config;
   const std::vector<bool>& needed;
-  double seconds = 5;  // between two of them; 0: none
+  double seconds = 5;       // between two of them; 0: none
+  std::string resume_name;  // what goes on from it, in messages: "--resume"
 };
 
-// The message, and that --resume goes on from this file if there is one.
-std::string with_way_on(const std::string& message, const std::filesystem::path& checkpoint);
+// The message, and what goes on from this file if there is one.
+std::string with_way_on(const std::string& message, const std::filesystem::path& checkpoint,
+                        const std::string& resume_name);
 
 // One thread of its own writes the file every so many seconds, if there is anything new, and sleeps
 // in between. What it cannot write ends the run at once, while little is lost: it asks `progress`
@@ -41,7 +43,7 @@ class CheckpointKeeper {
   CheckpointKeeper& operator=(const CheckpointKeeper&) = delete;
 
   // Does the work of the run. Where it ends with an error and there is a checkpoint, brings that up
-  // to date and adds to the message that --resume goes on from it.
+  // to date and adds to the message what goes on from it.
   void guard(const std::function<void()>& work);
 
   // No more of them are written. Throws IoError if one could not be. Before anything else uses
@@ -71,8 +73,9 @@ class CheckpointKeeper {
 };
 
 // The fits to go on with. Without `resume` none, and an InputError if the file exists: it may hold
-// hours of another run. With it, those of the file; where there is no file, none, and a line on
-// standard error that says so. Throws as read_checkpoint does.
-std::unique_ptr<FitJournal> open_journal(const CheckpointTask& task, bool resume);
+// hours of another run. With it, those of the file; where there is no file, none, and a warning.
+// Throws as read_checkpoint does.
+std::unique_ptr<FitJournal> open_journal(const CheckpointTask& task, bool resume,
+                                         const std::function<void(const std::string&)>& warn);
 
-}  // namespace ltc::cli
+}  // namespace ltc
