@@ -34,8 +34,7 @@ std::vector<Case> nodes(const Table& table) {
   std::vector<Case> cases;
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat)
     if (has_values(table.status[flat]))
-      cases.push_back(
-          {table.grid.lobe(table.grid.node(flat)), table.stored_at(flat), table.stored_at(flat)});
+      cases.push_back({table.grid.lobe(flat), table.stored_at(flat), table.stored_at(flat)});
   return cases;
 }
 

@@ -54,7 +54,7 @@ class SettingRunner {
     if (!sweeps() || fit.result.outcome == FitOutcome::non_finite)
       return fit;
     FitRequest request = request_for(flat);
-    for (const std::size_t neighbour : neighbours_of(flat))
+    for (const std::size_t neighbour : grid_.neighbours(flat))
       solve(neighbour);
     request.incumbent = fit.result;
     request.incumbent->outcome = FitOutcome::converged;
@@ -85,7 +85,7 @@ class SettingRunner {
   }
   FitRequest request_for(std::size_t flat) const {
     FitRequest request;
-    request.lobe = grid_.lobe(grid_.node(flat));
+    request.lobe = grid_.lobe(flat);
     request.seed = entry_seed(setting_.fit.seed, plan_[flat].representative);
     request.progress = progress_;
     return request;
@@ -118,19 +118,6 @@ class SettingRunner {
       keep(source, solver_->fit(request_for(source), workspace_, nullptr));
     entries_[flat] = entries_[source];
     entries_[flat].matrix = turned(entries_[source].matrix, plan_[flat].turn_radians);
-  }
-  std::vector<std::size_t> neighbours_of(std::size_t flat) const {
-    std::vector<std::size_t> neighbours;
-    const auto shape = grid_.shape();
-    std::size_t stride = 1;
-    for (std::size_t axis = 4; axis-- > 0; stride *= shape[axis]) {
-      const std::size_t index = flat / stride % shape[axis];
-      if (index > 0)
-        neighbours.push_back(flat - stride);
-      if (index + 1 < shape[axis])
-        neighbours.push_back(flat + stride);
-    }
-    return neighbours;
   }
 
   const BenchSetting& setting_;
@@ -243,7 +230,7 @@ FrontierRun measure_frontier(const FrontierTask& task, const RunContext& context
   const Stage stage(context, "bench", task.entries.size() * task.settings.size());
   for (std::size_t place = 0; place < task.entries.size(); ++place) {
     const std::size_t flat = task.entries[place];
-    judge.set_lobe(task.grid.lobe(task.grid.node(flat)));
+    judge.set_lobe(task.grid.lobe(flat));
     for (std::size_t i = 0; i < runners.size(); ++i) {
       run.measurements[i].push_back(
           measure(task, task.settings[i], flat, whole[place], runners[i], judge));
@@ -271,7 +258,7 @@ std::vector<SettingSummary> summarize(const FrontierTask& task, const FrontierRu
       seconds.push_back(measurement.seconds);
       comparisons.push_back({measurement.loss, run.reference_loss[place], 0});
       const std::size_t flat = task.entries[place];
-      rough.push_back(task.grid.lobe(task.grid.node(flat)).alpha_x > task.grid.alpha_min);
+      rough.push_back(task.grid.lobe(flat).alpha_x > task.grid.alpha_min);
       summary.judged += measurement.judged;
       summary.failures += measurement.judged && !std::isfinite(measurement.loss);
     }

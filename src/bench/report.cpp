@@ -9,16 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/version.h"
+#include "table/entry_text.h"
 
 namespace ltc {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string node_text(const Grid& grid, std::size_t flat) {
-  const NodeIndex node = grid.node(flat);
-  return fmt::format("{},{},{},{}", node.alpha, node.lambda, node.theta, node.phi);
-}
 
 Json file_or_null(const std::string& file) {
   return file.empty() ? Json() : Json(file);
@@ -43,7 +39,7 @@ Json json_of(const Grid& grid, const BenchSetting& setting, const SettingSummary
           {"ratio_median", value(ratios.p50)},
           {"ratio_p99", value(ratios.p99)},
           {"ratio_worst", value(ratios.largest)},
-          {"worst_entry", any ? Json(node_text(grid, ratios.largest_index)) : Json()}};
+          {"worst_entry", any ? Json(entry_text(grid, ratios.largest_index)) : Json()}};
 }
 
 // The kinds of settings that a picture tells apart.
@@ -145,7 +141,7 @@ std::string frontier_csv(const FrontierReport& report) {
     for (std::size_t place = 0; place < task.entries.size(); ++place) {
       const EntryMeasurement& measurement = report.run.measurements[i][place];
       text += fmt::format("{},{},{},{},{},{}\n", task.settings[i].name,
-                          node_text(task.grid, task.entries[place]), 1e3 * measurement.seconds,
+                          entry_text(task.grid, task.entries[place]), 1e3 * measurement.seconds,
                           measurement.steps, measurement.loss, report.run.reference_loss[place]);
     }
   return text;
@@ -170,11 +166,10 @@ picture::Chart frontier_chart(const FrontierReport& report) {
     all.push_back({summary.table_seconds, error > 0 ? error : none, task.settings[i].label});
     families[static_cast<std::size_t>(family_of(task.settings[i]))].points.push_back(all.back());
   }
-  const auto shape = task.grid.shape();
   Chart chart;
   chart.words = {"Run time against error",
-                 fmt::format("Table of {} × {} × {} × {} entries on one core; lower left is better",
-                             shape[0], shape[1], shape[2], shape[3]),
+                 fmt::format("Table of {} entries on one core; lower left is better",
+                             shape_text(task.grid, " × ")),
                  notes(report)};
   chart.x = {"time for the table", ScaleKind::logarithmic, TickFormat::duration};
   chart.y = {"mean error over the best known", ScaleKind::logarithmic, TickFormat::percent};

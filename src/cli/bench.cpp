@@ -93,12 +93,11 @@ std::string comparison_text(const FrontierReport& report) {
 
 std::string report_text(const FrontierReport& report) {
   const FrontierTask& task = report.task;
-  const auto shape = task.grid.shape();
   std::string text = fmt::format(
-      "{} of the {} fitted entries of a {}x{}x{}x{} table, evenly strided. Each is fitted by all\n"
+      "{} of the {} fitted entries of a {} table, evenly strided. Each is fitted by all\n"
       "settings in turn; times are processor time of one core. Error: held-out loss ({} samples,\n"
       "{} directions) over that of {}.\n\n",
-      task.entries.size(), fitted_entries(task.grid).size(), shape[0], shape[1], shape[2], shape[3],
+      task.entries.size(), fitted_entries(task.grid).size(), shape_text(task.grid),
       task.judge.samples, task.judge.directions,
       report.reference_file.empty() ? "the best setting at each entry" : report.reference_file);
   text += fmt::format("{:<18} {:>23} {:>13} {:>9} {:>9}\n", "", "milliseconds an entry", "table,",

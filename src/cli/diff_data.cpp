@@ -247,7 +247,7 @@ std::string report_csv(const DiffReport& report) {
   };
   for (std::size_t flat = 0; report.nodes && flat < report.nodes->entries.size(); ++flat) {
     QueryComparison node;
-    node.lobe = report.grid().lobe(report.grid().node(flat));
+    node.lobe = report.grid().lobe(flat);
     node.lobes = report.nodes->entries[flat];
     add_row(entry_text(report.grid(), flat), node);
   }

@@ -15,11 +15,6 @@
 namespace ltc::cli {
 namespace {
 
-std::string shape_text(const Grid& grid) {
-  const auto shape = grid.shape();
-  return fmt::format("{}x{}x{}x{}", shape[0], shape[1], shape[2], shape[3]);
-}
-
 // ---- What is compared, and which table is nearer ----
 
 std::string nodes_judged_text(const DiffReport& report) {

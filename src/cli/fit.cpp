@@ -185,7 +185,7 @@ FitReport run_fit(const Arguments& arguments, const Config& config, const RunCon
     lobe = parse_lobe(arguments);
   } else {
     report.entry = parse_entry(arguments.entry, config.grid);
-    lobe = config.grid.lobe(config.grid.node(*report.entry));
+    lobe = config.grid.lobe(*report.entry);
     seed_index = plan_by_symmetry(config.grid)[*report.entry].representative;
   }
   const std::uint64_t seed = entry_seed(config.fit.seed, seed_index);

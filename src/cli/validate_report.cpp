@@ -21,12 +21,11 @@ constexpr std::size_t most_shown = 5;  // entries of a failed check on the termi
 
 std::string table_text(const Validation& report) {
   const Grid& grid = report.table.grid;
-  const auto shape = grid.shape();
   const auto skipped =
       std::count(report.table.status.begin(), report.table.status.end(), Status::skipped);
-  return fmt::format("{}: {}x{}x{}x{} entries, storage {}, {} skipped\n{}\n\n", report.file,
-                     shape[0], shape[1], shape[2], shape[3], storage_name(report.table.storage),
-                     skipped, kind_text(report.table));
+  return fmt::format("{}: {} entries, storage {}, {} skipped\n{}\n\n", report.file,
+                     shape_text(grid), storage_name(report.table.storage), skipped,
+                     kind_text(report.table));
 }
 
 std::string verdict_text(const InvariantResult& result) {

@@ -52,21 +52,13 @@ std::string fault(const Axis& axis, double least, double most) {
 
 }  // namespace
 
-std::array<const Axis*, 4> axes_of(const Grid& grid) {
-  return {&grid.alpha, &grid.lambda, &grid.theta, &grid.phi};
-}
-
-std::array<Axis*, 4> axes_of(Grid& grid) {
-  return {&grid.alpha, &grid.lambda, &grid.theta, &grid.phi};
-}
-
 void require_consistent(const Grid& grid, const std::filesystem::path& file) {
   constexpr double quarter_turn = std::numbers::pi / 2 * (1 + 1e-12);
   constexpr double largest_float = 3.4e38;
   const std::array<double, 4> most = {largest_float, 1, quarter_turn, quarter_turn};
-  for (std::size_t i = 0; i < axis_names.size(); ++i)
-    if (const std::string what = fault(*axes_of(grid)[i], 0, most[i]); !what.empty())
-      refuse(file, fmt::format("axis {}: {}", axis_names[i], what));
+  for (std::size_t i = 0; i < Grid::axis_count; ++i)
+    if (const std::string what = fault(grid.axis(i), 0, most[i]); !what.empty())
+      refuse(file, fmt::format("axis {}: {}", grid.axis_names()[i], what));
   if (!(grid.alpha_min > 0 && std::isfinite(grid.alpha_min)))
     refuse(file, fmt::format("alpha_min is {}; it must be positive", grid.alpha_min));
 }
@@ -92,10 +84,9 @@ void require_consistent(const Table& table, const std::filesystem::path& file) {
     const auto first = table.stored.begin() + static_cast<std::ptrdiff_t>(9 * i);
     if (has_values(table.status[i]) &&
         !std::all_of(first, first + 9, [](float value) { return std::isfinite(value); })) {
-      const NodeIndex node = table.grid.node(i);
-      refuse(file, fmt::format("matrix of entry ({}, {}, {}, {}) is not finite, yet its status is "
-                               "{}; only a skipped (0) or failed (4) entry has none",
-                               node.alpha, node.lambda, node.theta, node.phi,
+      refuse(file, fmt::format("matrix of entry ({}) is not finite, yet its status is {}; only a "
+                               "skipped (0) or failed (4) entry has none",
+                               fmt::join(table.grid.indices(i), ", "),
                                static_cast<int>(table.status[i])));
     }
   }

@@ -4,10 +4,8 @@
 // writing, so that no file and no look-up ever sees another.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <filesystem>
-#include <string_view>
 
 #include "table/table.h"
 
@@ -15,11 +13,6 @@ namespace ltc {
 
 // Larger tables are refused before memory is taken for them.
 inline constexpr std::size_t max_nodes_per_axis = 64;
-
-// In the order of the files.
-inline constexpr std::array<std::string_view, 4> axis_names = {"alpha", "lambda", "theta", "phi"};
-std::array<const Axis*, 4> axes_of(const Grid& grid);
-std::array<Axis*, 4> axes_of(Grid& grid);
 
 // Throws InputError naming `file` and the axis if the grid has an axis of no or too many nodes,
 // with nodes that are not finite, not strictly increasing, out of range (alpha >= 0, lambda in [0,

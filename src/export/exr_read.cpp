@@ -66,10 +66,10 @@ Grid read_grid(const Imf::Header& header, const fs::path& path) {
   try {
     const nlohmann::json axes = json_attribute(header, "ltc:axes", path);
     const nlohmann::json warps = json_attribute(header, "ltc:warp", path);
-    for (std::size_t i = 0; i < axis_names.size(); ++i) {
-      const std::string name(axis_names[i]);
-      *axes_of(grid)[i] = {axes.at(name).get<std::vector<double>>(),
-                           warp_from_name(warps.at(name).get<std::string>())};
+    for (std::size_t i = 0; i < Grid::axis_count; ++i) {
+      const std::string name(grid.axis_names()[i]);
+      grid.axis(i) = {axes.at(name).get<std::vector<double>>(),
+                      warp_from_name(warps.at(name).get<std::string>())};
     }
   } catch (const nlohmann::json::exception& error) {
     refuse(path, fmt::format("header attribute ltc:axes or ltc:warp: {}", error.what()));

@@ -49,10 +49,9 @@ void require_storable(const Table& table, std::size_t entry, float value, float 
                       const fs::path& file) {
   if (std::abs(value) <= largest)
     return;
-  const NodeIndex node = table.grid.node(entry);
-  throw InputError(fmt::format(
-      "{}: entry ({}, {}, {}, {}) holds {}; a texture of this depth holds finite values up to {}",
-      file.string(), node.alpha, node.lambda, node.theta, node.phi, value, largest));
+  throw InputError(
+      fmt::format("{}: entry ({}) holds {}; a texture of this depth holds finite values up to {}",
+                  file.string(), fmt::join(table.grid.indices(entry), ", "), value, largest));
 }
 
 std::array<Pixels, files> gather_pixels(const Table& table, const TableFiles& paths, bool half) {
@@ -74,10 +73,10 @@ std::array<Pixels, files> gather_pixels(const Table& table, const TableFiles& pa
 
 Imf::Header make_header(const Table& table, std::size_t file, Imf::PixelType type) {
   nlohmann::ordered_json axes, warps;
-  for (std::size_t i = 0; i < axis_names.size(); ++i) {
-    const Axis& axis = *axes_of(table.grid)[i];
-    axes[std::string(axis_names[i])] = axis.nodes;
-    warps[std::string(axis_names[i])] = warp_name(axis.warp);
+  for (std::size_t i = 0; i < Grid::axis_count; ++i) {
+    const std::string name(table.grid.axis_names()[i]);
+    axes[name] = table.grid.axis(i).nodes;
+    warps[name] = warp_name(table.grid.axis(i).warp);
   }
   const Size size = atlas_size(table.grid);
   Imf::Header header(static_cast<int>(size.width), static_cast<int>(size.height));

@@ -48,9 +48,9 @@ void write_attributes(Hdf5Output& file, const Table& table) {
 
 void write_axes(Hdf5Output& file, const Grid& grid) {
   file.group("axis");
-  for (std::size_t i = 0; i < axis_names.size(); ++i) {
-    const Axis& axis = *axes_of(grid)[i];
-    const std::string name = axis_dataset(axis_names[i]);
+  for (std::size_t i = 0; i < Grid::axis_count; ++i) {
+    const Axis& axis = grid.axis(i);
+    const std::string name = axis_dataset(grid.axis_names()[i]);
     file.values<double>(name, {axis.size()}, axis.nodes);
     file.text(name, "warp", std::string(warp_name(axis.warp)));
   }
@@ -116,8 +116,8 @@ Axis read_axis(const Hdf5Input& file, const fs::path& path, const std::string& n
 
 Grid read_grid(const Hdf5Input& file, const fs::path& path) {
   Grid grid;
-  for (std::size_t i = 0; i < axis_names.size(); ++i)
-    *axes_of(grid)[i] = read_axis(file, path, axis_dataset(axis_names[i]));
+  for (std::size_t i = 0; i < Grid::axis_count; ++i)
+    grid.axis(i) = read_axis(file, path, axis_dataset(grid.axis_names()[i]));
   grid.alpha_min = file.real(root, "alpha_min");
   require_consistent(grid, path);
   return grid;

@@ -16,6 +16,7 @@
 #include "judge/validate_settings.h"
 #include "pipeline/fit_one.h"
 #include "pipeline/run.h"
+#include "table/entry_text.h"
 #include "table/lookup.h"
 
 namespace ltcfit {
@@ -85,11 +86,9 @@ std::array<std::size_t, 4> Table::shape() const {
 }
 
 const std::vector<double>& Table::axis(std::size_t index) const {
-  const ltc::Grid& grid = data_->table.grid;
-  const std::array axes{&grid.alpha, &grid.lambda, &grid.theta, &grid.phi};
-  if (index >= axes.size())
+  if (index >= ltc::Grid::axis_count)
     throw InputError(fmt::format("axis {} is not there; allowed: 0 to 3", index));
-  return axes[index]->nodes;
+  return data_->table.grid.axis(index).nodes;
 }
 
 std::string_view Table::storage() const {
@@ -119,9 +118,8 @@ std::span<const float> Table::loss() const {
 Eigen::Matrix3d Table::matrix(const std::array<std::size_t, 4>& node) const {
   const ltc::Grid& grid = data_->table.grid;
   if (!std::ranges::equal(node, grid.shape(), std::ranges::less()))
-    throw InputError(fmt::format("node {},{},{},{} is not there; the table has {}×{}×{}×{}",
-                                 node[0], node[1], node[2], node[3], shape()[0], shape()[1],
-                                 shape()[2], shape()[3]));
+    throw InputError(fmt::format("node {} is not there; the table has {}", fmt::join(node, ","),
+                                 ltc::shape_text(grid, "×")));
   return data_->table.matrix_at(grid.flat({node[0], node[1], node[2], node[3]}));
 }
 

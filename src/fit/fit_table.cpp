@@ -68,26 +68,6 @@ std::vector<FitStep>* trace_of(FitWatch* watch, std::size_t flat) {
 
 }  // namespace
 
-std::vector<std::size_t> neighbours_of(const Grid& grid, std::size_t flat) {
-  std::vector<std::size_t> neighbours;
-  const NodeIndex node = grid.node(flat);
-  const auto shape = grid.shape();
-  const std::array<std::size_t NodeIndex::*, 4> axes = {&NodeIndex::alpha, &NodeIndex::lambda,
-                                                        &NodeIndex::theta, &NodeIndex::phi};
-  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-    NodeIndex neighbour = node;
-    if (node.*axes[axis] > 0) {
-      neighbour.*axes[axis] = node.*axes[axis] - 1;
-      neighbours.push_back(grid.flat(neighbour));
-    }
-    if (node.*axes[axis] + 1 < shape[axis]) {
-      neighbour.*axes[axis] = node.*axes[axis] + 1;
-      neighbours.push_back(grid.flat(neighbour));
-    }
-  }
-  return neighbours;
-}
-
 FitResult fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
                     std::vector<FitStep>* trace, FittedEntry& entry) {
   const FitResult result = solver.fit(request, workspace, trace);
@@ -109,12 +89,11 @@ FitResult fit_entry(const Solver& solver, const FitRequest& request, FitWorkspac
 std::vector<Eigen::Matrix3d> neighbour_starts(const Grid& grid, std::size_t flat,
                                               const std::vector<FittedEntry>& entries) {
   std::vector<Eigen::Matrix3d> starts;
-  const LobeFrame frame(grid.lobe(grid.node(flat)));
-  for (const std::size_t neighbour : neighbours_of(grid, flat)) {
+  const LobeFrame frame(grid.lobe(flat));
+  for (const std::size_t neighbour : grid.neighbours(flat)) {
     const FittedEntry& entry = entries[neighbour];
     if (has_values(entry.status))
-      starts.push_back(
-          frame.to_matrix(LobeFrame(grid.lobe(grid.node(neighbour))).from_matrix(entry.matrix)));
+      starts.push_back(frame.to_matrix(LobeFrame(grid.lobe(neighbour)).from_matrix(entry.matrix)));
   }
   return starts;
 }
@@ -166,7 +145,7 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
     copy_by_symmetry(plan, run, results);
   };
   const auto plain_request = [&](std::size_t flat) {
-    return FitRequest{grid.lobe(grid.node(flat)),
+    return FitRequest{grid.lobe(flat),
                       entry_seed(settings.seed, equal.first_of(flat)),
                       {},
                       {},

@@ -59,9 +59,6 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
 // How many sweeps the settings ask for: none but with the solver that has them.
 int sweep_count(const FitSettings& settings);
 
-// The entries that share a face with this one: up to two along each axis.
-std::vector<std::size_t> neighbours_of(const Grid& grid, std::size_t flat);
-
 // What every entry of a table goes through: fits the request's lobe and stores the result, its
 // steps added to those that `entry` has. `trace` may be null.
 FitResult fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,

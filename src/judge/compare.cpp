@@ -12,6 +12,7 @@
 #include "align/align.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "table/entry_text.h"
 
 namespace ltc {
 namespace {
@@ -41,9 +42,7 @@ std::vector<std::size_t> first_of_same(const Table& a, const Table& b) {
   std::vector<std::size_t> result(a.grid.size());
   for (std::size_t flat = 0; flat < result.size(); ++flat)
     result[flat] =
-        first
-            .try_emplace(
-                bits_of(a.grid.lobe(a.grid.node(flat)), a.matrix_at(flat), b.matrix_at(flat)), flat)
+        first.try_emplace(bits_of(a.grid.lobe(flat), a.matrix_at(flat), b.matrix_at(flat)), flat)
             .first->second;
   return result;
 }
@@ -70,15 +69,11 @@ EntryComparison compare_lobes(const GgxLobe& lobe, const Eigen::Matrix3d& a,
 void require_same_grid(const Grid& a, const Grid& b) {
   if (a == b)
     return;
-  const auto shape = [](const Grid& grid) {
-    const auto s = grid.shape();
-    return fmt::format("{}x{}x{}x{}", s[0], s[1], s[2], s[3]);
-  };
   if (a.shape() != b.shape())
     throw InputError(
         fmt::format("the tables have different shapes: {} and {}; entries can only be "
                     "compared on the same grid",
-                    shape(a), shape(b)));
+                    shape_text(a), shape_text(b)));
   if (a.layout != b.layout)
     throw InputError(
         fmt::format("the tables have different axes: those of one hold {}, of the other {}; "
@@ -105,8 +100,8 @@ std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
       "compare", to_judge.size(), run, [&] { return prototype; },
       [&](std::size_t i, HeldOutJudge& judge) {
         const std::size_t flat = to_judge[i];
-        entries[flat] = compare_lobes(a.grid.lobe(a.grid.node(flat)), a.matrix_at(flat),
-                                      b.matrix_at(flat), judge);
+        entries[flat] =
+            compare_lobes(a.grid.lobe(flat), a.matrix_at(flat), b.matrix_at(flat), judge);
       });
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
     entries[flat] = entries[first[flat]];

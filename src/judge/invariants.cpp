@@ -256,7 +256,7 @@ class Checks {
   }
 
  private:
-  GgxLobe lobe_at(std::size_t flat) const { return table_.grid.lobe(table_.grid.node(flat)); }
+  GgxLobe lobe_at(std::size_t flat) const { return table_.grid.lobe(flat); }
 
   // Measured once, when first asked for.
   const LobeMeasures& lobes() {

@@ -12,16 +12,18 @@
 namespace ltc {
 namespace {
 
-constexpr std::size_t axes = 4;
+constexpr std::size_t axes = Grid::axis_count;
 constexpr std::size_t most_bridged = 1000;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class Blame {
  public:
   Blame(const Grid& grid, std::vector<float>& jumps)
-      : grid_(grid), jumps_(jumps), aside_(grid.size()), values_(grid.size(), nan) {
-    const auto shape = grid.shape();
-    strides_ = {shape[1] * shape[2] * shape[3], shape[2] * shape[3], shape[3], 1};
+      : grid_(grid),
+        jumps_(jumps),
+        aside_(grid.size()),
+        values_(grid.size(), nan),
+        strides_(grid.strides()) {
     std::vector<Jump> all;
     for (std::size_t link = 0; link < jumps.size(); ++link)
       if (!std::isnan(jumps[link])) {
@@ -64,16 +66,10 @@ class Blame {
     return flat;
   }
   std::optional<std::size_t> after_of(std::size_t flat, std::size_t axis) const {
-    const NodeIndex node = grid_.node(flat);
-    std::size_t index = std::array{node.alpha, node.lambda, node.theta, node.phi}[axis];
-    do {
-      flat += strides_[axis];
-      if (++index == grid_.shape()[axis])
-        return std::nullopt;
-    } while (aside_[flat]);
-    if (std::isnan(jumps_[axes * flat + axis]))
-      return std::nullopt;
-    return flat;
+    auto after = grid_.after(flat, axis);
+    while (after && aside_[*after])
+      after = grid_.after(*after, axis);
+    return after && std::isnan(jumps_[axes * *after + axis]) ? std::nullopt : after;
   }
 
   double mean_jump(std::size_t flat) const {
@@ -111,7 +107,7 @@ class Blame {
   std::vector<float>& jumps_;
   std::vector<bool> aside_;
   std::vector<double> values_;
-  std::array<std::size_t, axes> strides_{};
+  const std::array<std::size_t, axes> strides_;
   std::priority_queue<Jump> largest_;
 };
 

@@ -3,7 +3,6 @@
 #include "judge/lobe_invariants.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -18,7 +17,6 @@ namespace {
 constexpr std::size_t blocks = 32;
 constexpr double loss_noise = 1.0 / 300, jump_noise = 0.03;  // shares of the spread
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t axes = 4;
 
 // The quantiles of all entries with one alpha.
 struct Layer {
@@ -28,15 +26,6 @@ struct Layer {
   Layer(std::size_t entries, std::size_t size)
       : ggx(entries * size), ltc(entries * size), spread(entries) {}
 };
-
-std::array<std::size_t, axes> strides(const Grid& grid) {
-  const auto shape = grid.shape();
-  return {shape[1] * shape[2] * shape[3], shape[2] * shape[3], shape[3], 1};
-}
-
-std::array<std::size_t, axes> indices(const NodeIndex& node) {
-  return {node.alpha, node.lambda, node.theta, node.phi};
-}
 
 // Works through the table alpha by alpha, with no more than two layers in memory.
 class LobeMeter {
@@ -49,10 +38,10 @@ class LobeMeter {
         suspicious_(effort.suspicious_jump),
         slack_(effort.slack),
         run_(run),
-        layer_entries_(strides(table.grid)[0]),
+        layer_entries_(table.grid.strides()[0]),
         below_(layer_entries_, prototype_.size()),
         here_(layer_entries_, prototype_.size()),
-        jumps_(axes * table.grid.size(), static_cast<float>(nan)) {
+        jumps_(Grid::axis_count * table.grid.size(), static_cast<float>(nan)) {
     measures_.loss_excess.assign(table.grid.size(), nan);
   }
 
@@ -87,7 +76,7 @@ class LobeMeter {
   // Fills place i of a layer; the distance of the two lobes.
   double measure_entry(std::size_t flat, std::size_t i, LobeQuantiles& quantiles,
                        Layer& layer) const {
-    const LobeFrame frame(table_.grid.lobe(table_.grid.node(flat)));
+    const LobeFrame frame(table_.grid.lobe(flat));
     float* const ggx = &layer.ggx[i * prototype_.size()];
     float* const ltc = &layer.ltc[i * prototype_.size()];
     quantiles.of_ggx(frame, ggx);
@@ -98,14 +87,13 @@ class LobeMeter {
 
   // The jumps from each entry of the layer to those before it along the four axes.
   void find_jumps(std::size_t first) {
-    const auto stride = strides(table_.grid);
     for (std::size_t i = 0; i < layer_entries_; ++i) {
       const std::size_t flat = first + i;
-      const auto index = indices(table_.grid.node(flat));
-      for (std::size_t axis = 0; axis < axes; ++axis)
-        if (index[axis] > 0 && judged_[flat] && judged_[flat - stride[axis]])
-          jumps_[axes * flat + axis] = static_cast<float>(
-              axis == 0 ? jump(here_, i, below_, i) : jump(here_, i, here_, i - stride[axis]));
+      for (std::size_t axis = 0; axis < Grid::axis_count; ++axis)
+        if (const auto before = table_.grid.before(flat, axis);
+            before && judged_[flat] && judged_[*before])
+          jumps_[Grid::axis_count * flat + axis] = static_cast<float>(
+              axis == 0 ? jump(here_, i, below_, i) : jump(here_, i, here_, *before - first));
     }
   }
 

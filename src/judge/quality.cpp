@@ -97,8 +97,8 @@ std::vector<double> judge_nodes(const Table& table, const QualitySettings& setti
   const std::vector<std::size_t> nodes = nodes_to_judge(table, settings);
   parallel_for_each("judge nodes", nodes.size(), run, [&](std::size_t i) {
     const std::size_t flat = nodes[i];
-    losses[flat] = relative_loss(node_judge(settings, flat), table.grid.lobe(table.grid.node(flat)),
-                                 table.matrix_at(flat));
+    losses[flat] =
+        relative_loss(node_judge(settings, flat), table.grid.lobe(flat), table.matrix_at(flat));
   });
   return losses;
 }

@@ -156,7 +156,7 @@ std::vector<double> inversion_errors(
       [&](std::size_t flat, InversionMeter& meter) {
         if (!judged[flat])
           return;
-        const LobeFrame frame(table.grid.lobe(table.grid.node(flat)));
+        const LobeFrame frame(table.grid.lobe(flat));
         errors[flat] = meter.error(frame, table.matrix_at(flat), seen(flat, frame));
       });
   return errors;

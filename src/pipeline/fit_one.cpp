@@ -52,7 +52,7 @@ std::vector<bool> entries_behind(const Grid& grid, const std::vector<bool>& need
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     const std::size_t end = fitted.size();
     for (; begin < end; ++begin)
-      for (const std::size_t neighbour : neighbours_of(grid, fitted[begin])) {
+      for (const std::size_t neighbour : grid.neighbours(fitted[begin])) {
         if (!needed[neighbour])
           continue;
         behind[neighbour] = true;
@@ -75,12 +75,12 @@ LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, s
   const std::vector<FittedEntry> entries = fit_table(
       grid, config.fit, entries_behind(grid, needed, flat, sweep_count(config.fit)), run, &watch);
   LobeFit fit;
-  fit.lobe = grid.lobe(grid.node(flat));
+  fit.lobe = grid.lobe(flat);
   fit.fits = std::move(watch.fits);
   fit.fitted = entries[flat];
   finish(config, fit);
   // A table integrates a lobe once, as its representative sees it.
-  fit.albedo = integrate_albedo(grid.lobe(grid.node(representative)), AlbedoRule());
+  fit.albedo = integrate_albedo(grid.lobe(representative), AlbedoRule());
   return fit;
 }
 

@@ -43,8 +43,7 @@ void post_process_all(const Grid& grid, const std::vector<FittedEntry>& entries,
         std::min(entry.steps, static_cast<int>(std::numeric_limits<std::uint16_t>::max())));
     if (!has_values(entry.status))
       continue;
-    const PostProcessed finished =
-        post_process(grid.lobe(grid.node(flat)), table.storage, entry.matrix);
+    const PostProcessed finished = post_process(grid.lobe(flat), table.storage, entry.matrix);
     if (finished.zeroed > report.largest_zeroed) {
       report.largest_zeroed = finished.zeroed;
       report.largest_zeroed_entry = flat;
@@ -132,7 +131,7 @@ void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
   parallel_for_each("albedo", plan.size(), run, [&](std::size_t flat) {
     if (plan[flat].representative != flat)
       return;
-    const Albedo albedo = integrate_albedo(grid.lobe(grid.node(flat)), rule);
+    const Albedo albedo = integrate_albedo(grid.lobe(flat), rule);
     table.amplitude[flat] = static_cast<float>(albedo.amplitude);
     table.fresnel[flat] = static_cast<float>(albedo.fresnel);
   });

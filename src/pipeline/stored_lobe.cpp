@@ -43,7 +43,7 @@ void judge(const Table& table, const RunContext& run, StoredLobe& stored) {
 double relative_loss_of_node(const Table& table, std::size_t flat, const RunContext& run) {
   run.throw_if_stopped();
   HeldOutJudge judge;
-  judge.set_lobe(table.grid.lobe(table.grid.node(flat)));
+  judge.set_lobe(table.grid.lobe(flat));
   return judge.loss(table.matrix_at(flat)) / judge.spread();
 }
 
@@ -52,7 +52,7 @@ double relative_loss_of_node(const Table& table, std::size_t flat, const RunCont
 StoredLobe stored_entry(const Table& table, std::size_t flat, const RunContext& run) {
   require_values(table, flat);
   StoredLobe stored;
-  stored.lobe = table.grid.lobe(table.grid.node(flat));
+  stored.lobe = table.grid.lobe(flat);
   stored.entry = flat;
   stored.stored = table.stored_at(flat);
   stored.matrix = table.matrix_at(flat);

@@ -66,7 +66,7 @@ NodeSpace::NodeSpace(const Grid& grid, const std::vector<bool>& movable) {
       orbits_.push_back(std::move(orbit));
   }
   for (std::size_t flat = 0; flat < grid.size(); ++flat)
-    free_[flat] = frozen[flat] ? FreeEntries{} : free_entries(grid.lobe(grid.node(flat)));
+    free_[flat] = frozen[flat] ? FreeEntries{} : free_entries(grid.lobe(flat));
 }
 
 void NodeSpace::average_orbits(NodeVectors& values) const {

@@ -33,9 +33,7 @@ std::vector<SingularityBound> bounds_at(const Grid& grid, Storage storage,
   for (std::size_t flat = 0; flat < stored.size(); ++flat) {
     const Eigen::Matrix3d& matrix = stored[flat];
     const Eigen::Vector3d scale =
-        matrix_from_stored(storage, Eigen::Matrix3d::Identity(), grid.lobe(grid.node(flat)))
-            .colwise()
-            .norm();
+        matrix_from_stored(storage, Eigen::Matrix3d::Identity(), grid.lobe(flat)).colwise().norm();
     bounds.push_back({least_determinant_share * matrix.determinant(),
                       std::min(least_solid_angle, solid_angle_of_columns(matrix)),
                       std::max(most_condition, frobenius_condition(matrix * scale.asDiagonal())),
@@ -140,7 +138,7 @@ std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Eigen
       [&](std::size_t flat, State& state) {
         if (!nodes.has_values[flat])
           return;
-        const LobeFrame frame(grid.lobe(grid.node(flat)));
+        const LobeFrame frame(grid.lobe(flat));
         sample_weighted_target(frame, lattice, state.target);
         state.quantiles.build(state.target, directions, bins, state.workspace.xi,
                               state.workspace.bins);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace ltc {
 namespace {
@@ -46,24 +47,19 @@ std::vector<GgxLobe> lobes_of_nodes(const Grid& grid, const std::vector<bool>& h
   std::vector<GgxLobe> lobes;
   for (std::size_t flat = 0; flat < grid.size(); ++flat)
     if (has_values[flat])
-      lobes.push_back(grid.lobe(grid.node(flat)));
+      lobes.push_back(grid.lobe(flat));
   return lobes;
 }
 
 // The cells that can be asked: each counts at its first node, the one with a next node that has
 // values, or none before, along every axis.
 std::size_t cell_count(const Grid& grid, const std::vector<bool>& has_values) {
-  const auto shape = grid.shape();
-  const std::array<std::size_t, 4> stride{shape[1] * shape[2] * shape[3], shape[2] * shape[3],
-                                          shape[3], 1};
+  const auto present = [&](std::optional<std::size_t> node) { return node && has_values[*node]; };
   std::size_t cells = 0;
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
-    const NodeIndex node = grid.node(flat);
-    const std::array<std::size_t, 4> index{node.alpha, node.lambda, node.theta, node.phi};
     bool first = has_values[flat];
-    for (std::size_t axis = 0; axis < 4 && first; ++axis)
-      first = (index[axis] + 1 < shape[axis] && has_values[flat + stride[axis]]) ||
-              index[axis] == 0 || !has_values[flat - stride[axis]];
+    for (std::size_t axis = 0; axis < Grid::axis_count && first; ++axis)
+      first = present(grid.after(flat, axis)) || !present(grid.before(flat, axis));
     cells += first;
   }
   return cells;

@@ -16,27 +16,24 @@ std::vector<ClampedAxis> clamped_axes(const Grid& grid, const SphereMaterial& ma
   constexpr double right_angle = std::numbers::pi / 2;
   const auto [smaller, larger] = std::minmax(material.alpha_x, material.alpha_y);
   std::vector<ClampedAxis> result;
-  const auto check = [&](const char* name, const Axis& axis, std::initializer_list<double> values,
-                         auto&& clamped_to, double unit) {
+  const auto check = [&](std::size_t axis, std::initializer_list<double> values, auto&& clamped_to,
+                         double unit) {
+    const std::string name(grid.axis_names()[axis]);
     ClampedAxis worst{name, 0, 0};
     for (const double value : values) {
-      const double taken = clamped_to(axis, value);
+      const double taken = clamped_to(grid.axis(axis), value);
       if (std::abs(value - taken) > std::abs(worst.asked - worst.taken) * unit)
         worst = {name, value / unit, taken / unit};
     }
     if (worst.asked != worst.taken)
       result.push_back(worst);
   };
-  if (grid.layout == Layout::alphax_alphay) {
-    check("alpha_x", grid.alpha, {material.alpha_x}, clamped_to_roughness_axis, 1);
-    check("alpha_y", grid.lambda, {material.alpha_y}, clamped_to_roughness_axis, 1);
-  } else {
-    check("alpha", grid.alpha, {larger}, clamped_to_roughness_axis, 1);
-    check("lambda", grid.lambda, {smaller / larger}, clamped_to_roughness_axis, 1);
-  }
-  check("theta", grid.theta, {0, right_angle}, clamped_to_angle_axis, radians_per_degree);
+  const bool both = grid.layout == Layout::alphax_alphay;
+  check(0, {both ? material.alpha_x : larger}, clamped_to_roughness_axis, 1);
+  check(1, {both ? material.alpha_y : smaller / larger}, clamped_to_roughness_axis, 1);
+  check(2, {0, right_angle}, clamped_to_angle_axis, radians_per_degree);
   if (smaller != larger)
-    check("phi", grid.phi, {0, right_angle}, clamped_to_angle_axis, radians_per_degree);
+    check(3, {0, right_angle}, clamped_to_angle_axis, radians_per_degree);
   return result;
 }
 

@@ -14,7 +14,7 @@ void fill_missing_albedo(Table& table) {
     if (!has_values(table.status[flat]) ||
         (std::isfinite(table.amplitude[flat]) && std::isfinite(table.fresnel[flat])))
       continue;
-    const Albedo albedo = integrate_albedo(table.grid.lobe(table.grid.node(flat)), rule);
+    const Albedo albedo = integrate_albedo(table.grid.lobe(flat), rule);
     table.amplitude[flat] = static_cast<float>(albedo.amplitude);
     table.fresnel[flat] = static_cast<float>(albedo.fresnel);
   }

@@ -64,13 +64,9 @@ picture::TiledMap ratio_map(const Grid& grid, const std::vector<EntryComparison>
   picture::TiledMap map = table_map(
       grid, ratios, picture::ratio_colors(color_bound(grid, entries), "loss of A over loss of B"));
   map.words = words_of(grid, entries, name_a, name_b);
-  for (const std::size_t flat : largest_of(ratios, marked)) {
-    const NodeIndex node = grid.node(flat);
+  for (const std::size_t flat : largest_of(ratios, marked))
     if (ratios[flat] > 1)
-      map.marks.push_back(
-          {{node.alpha, node.lambda, node.theta, node.phi},
-           fmt::format("{},{},{},{}", node.alpha, node.lambda, node.theta, node.phi)});
-  }
+      map.marks.push_back(mark_of(grid, flat));
   return map;
 }
 

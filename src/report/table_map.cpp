@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/angle.h"
+#include "table/entry_text.h"
 
 namespace ltc {
 namespace {
@@ -19,6 +20,10 @@ picture::MapAxis map_axis(const char* title, const Axis& axis, double unit, cons
 }
 
 }  // namespace
+
+picture::CellMark mark_of(const Grid& grid, std::size_t flat) {
+  return {grid.indices(flat), entry_text(grid, flat)};
+}
 
 picture::TiledMap table_map(const Grid& grid, const std::vector<double>& values,
                             picture::ColorScale colors) {

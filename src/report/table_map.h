@@ -15,4 +15,7 @@ namespace ltc {
 picture::TiledMap table_map(const Grid& grid, const std::vector<double>& values,
                             picture::ColorScale colors);
 
+// A ring about an entry, with its indices.
+picture::CellMark mark_of(const Grid& grid, std::size_t flat);
+
 }  // namespace ltc

@@ -60,14 +60,13 @@ std::string sentence(const Validation& validation) {
 
 std::string header(const Validation& validation) {
   const Table& table = validation.table;
-  const auto shape = table.grid.shape();
   std::string made = table.generator.empty() ? "" : ", made by " + table.generator;
   if (!table.created.empty())
     made += ", " + table.created;
   return fmt::format(
-             "<h1>{}</h1>\n<p class=\"faint\">{} × {} × {} × {} entries over {}, θ, φ, "
+             "<h1>{}</h1>\n<p class=\"faint\">{} entries over {}, θ, φ, "
              "storage {}{}</p>\n<p class=\"faint\">{}</p>\n",
-             escaped(validation.file), shape[0], shape[1], shape[2], shape[3],
+             escaped(validation.file), shape_text(table.grid, " × "),
              table.grid.layout == Layout::alphax_alphay ? "αx, αy" : "α, λ",
              storage_name(table.storage), escaped(made), escaped(kind_text(table))) +
          sentence(validation);

@@ -48,11 +48,6 @@ bool any_number(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-picture::CellMark mark_of(const Grid& grid, std::size_t flat) {
-  const NodeIndex node = grid.node(flat);
-  return {{node.alpha, node.lambda, node.theta, node.phi}, entry_text(grid, flat)};
-}
-
 // A map with a scale about the values; the largest one ringed if `mark`.
 NamedPicture map_of(const Validation& validation, const std::vector<double>& values,
                     const std::string& title, const std::string& unit, ScaleKind kind, bool mark) {
@@ -113,7 +108,7 @@ std::vector<LobeToDraw> failing_entries(const Validation& validation, std::size_
     if (std::find(drawn.begin(), drawn.end(), flat) != drawn.end())
       continue;
     drawn.push_back(flat);
-    lobes.push_back({table.grid.lobe(table.grid.node(flat)), table.matrix_at(flat),
+    lobes.push_back({table.grid.lobe(flat), table.matrix_at(flat),
                      fmt::format("Entry {} fails: {}", entry_text(table.grid, flat), result.name),
                      result.message,
                      fmt::format("ltcfit fit --as-in {} --entry {}", shell_quoted(validation.file),

@@ -93,7 +93,9 @@ NodeRange nodes_touched(const Axis& axis, const Interval& values) {
 class Marker {
  public:
   explicit Marker(const Grid& grid)
-      : grid_(grid), touched_(grid.alpha.size() * grid.lambda.size() * grid.theta.size(), false) {}
+      : grid_(grid),
+        phi_(nodes_touched(grid.phi, {0, std::numbers::pi / 2})),
+        touched_(grid.size(), false) {}
 
   // Along alpha in pieces between the nodes: within a piece, every lambda meets both its nodes.
   // Beyond the ends of the axis, where a look-up clamps alpha but not lambda, there are pieces too.
@@ -114,12 +116,12 @@ class Marker {
   }
 
   std::vector<bool> needed_entries() const {
-    const NodeRange phi = nodes_touched(grid_.phi, {0, std::numbers::pi / 2});
-    const std::size_t phi_count = grid_.phi.size();
     std::vector<bool> needed(grid_.size(), false);
     for (std::size_t flat = 0; flat < needed.size(); ++flat) {
-      const std::size_t p = flat % phi_count;
-      needed[flat] = touched_[flat / phi_count] && phi.first <= p && p <= phi.last;
+      NodeIndex node = grid_.node(flat);
+      const bool in_range = phi_.first <= node.phi && node.phi <= phi_.last;
+      node.phi = phi_.first;
+      needed[flat] = in_range && touched_[grid_.flat(node)];
     }
     return needed;
   }
@@ -134,11 +136,12 @@ class Marker {
     for (std::size_t a = alpha.first; a <= alpha.last; ++a)
       for (std::size_t l = lambda.first; l <= lambda.last; ++l)
         for (std::size_t t = theta.first; t <= theta.last; ++t)
-          touched_[(a * grid_.lambda.size() + l) * grid_.theta.size() + t] = true;
+          touched_[grid_.flat({a, l, t, phi_.first})] = true;
   }
 
   const Grid& grid_;
-  std::vector<bool> touched_;  // in the grid's order, without phi
+  const NodeRange phi_;
+  std::vector<bool> touched_;  // at the first phi
 };
 
 }  // namespace

@@ -9,17 +9,20 @@
 namespace ltc {
 
 std::string entry_text(const Grid& grid, std::size_t flat) {
-  const NodeIndex node = grid.node(flat);
-  return fmt::format("{},{},{},{}", node.alpha, node.lambda, node.theta, node.phi);
+  return fmt::format("{}", fmt::join(grid.indices(flat), ","));
+}
+
+std::string shape_text(const Grid& grid, std::string_view between) {
+  return fmt::format("{}", fmt::join(grid.shape(), between));
 }
 
 std::string lobe_text(const Grid& grid, std::size_t flat) {
   constexpr double degrees = 180 / std::numbers::pi;
   const NodeIndex node = grid.node(flat);
-  const bool both = grid.layout == Layout::alphax_alphay;
-  return fmt::format("{} {:.3f}, {} {:.3f}, theta {:.1f}, phi {:.1f}", both ? "alpha_x" : "alpha",
-                     grid.alpha.nodes[node.alpha], both ? "alpha_y" : "lambda",
-                     grid.lambda.nodes[node.lambda], grid.theta.nodes[node.theta] * degrees,
+  const auto [first, second, theta, phi] = grid.axis_names();
+  return fmt::format("{} {:.3f}, {} {:.3f}, {} {:.1f}, {} {:.1f}", first,
+                     grid.alpha.nodes[node.alpha], second, grid.lambda.nodes[node.lambda], theta,
+                     grid.theta.nodes[node.theta] * degrees, phi,
                      grid.phi.nodes[node.phi] * degrees);
 }
 

@@ -41,6 +41,42 @@ NodeIndex Grid::node(std::size_t flat) const {
   return node;
 }
 
+std::array<std::string_view, Grid::axis_count> Grid::axis_names() const {
+  if (layout == Layout::alphax_alphay)
+    return {"alpha_x", "alpha_y", "theta", "phi"};
+  return {"alpha", "lambda", "theta", "phi"};
+}
+
+std::array<std::size_t, Grid::axis_count> Grid::indices(std::size_t flat) const {
+  const NodeIndex at = node(flat);
+  return {at.alpha, at.lambda, at.theta, at.phi};
+}
+
+std::array<std::size_t, Grid::axis_count> Grid::strides() const {
+  return {lambda.size() * theta.size() * phi.size(), theta.size() * phi.size(), phi.size(), 1};
+}
+
+std::optional<std::size_t> Grid::before(std::size_t flat, std::size_t axis) const {
+  const std::size_t stride = strides()[axis];
+  return flat / stride % shape()[axis] > 0 ? std::optional(flat - stride) : std::nullopt;
+}
+
+std::optional<std::size_t> Grid::after(std::size_t flat, std::size_t axis) const {
+  const std::size_t stride = strides()[axis];
+  return flat / stride % shape()[axis] + 1 < shape()[axis] ? std::optional(flat + stride)
+                                                           : std::nullopt;
+}
+
+std::vector<std::size_t> Grid::neighbours(std::size_t flat) const {
+  std::vector<std::size_t> result;
+  result.reserve(2 * axis_count);
+  for (std::size_t axis = 0; axis < axis_count; ++axis)
+    for (const auto next : {before(flat, axis), after(flat, axis)})
+      if (next)
+        result.push_back(*next);
+  return result;
+}
+
 GgxLobe Grid::lobe(const NodeIndex& node) const {
   const double larger = alpha.nodes[node.alpha];  // of the two, or alpha_x
   GgxLobe lobe;

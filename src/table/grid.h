@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 #include "brdf/ggx.h"
 #include "table/axis.h"
@@ -40,6 +42,13 @@ struct Grid {
   // The same ranges with (alpha, lambda, theta, phi) node counts of their own.
   static Grid paper(const std::array<std::size_t, 4>& shape);
 
+  // The axes by number, in the order of the files, and what they hold: "alpha", "lambda" or
+  // "alpha_x", "alpha_y"; then "theta", "phi".
+  static constexpr std::size_t axis_count = 4;
+  Axis& axis(std::size_t number) { return *std::array{&alpha, &lambda, &theta, &phi}.at(number); }
+  const Axis& axis(std::size_t number) const { return const_cast<Grid&>(*this).axis(number); }
+  std::array<std::string_view, axis_count> axis_names() const;
+
   std::size_t size() const { return alpha.size() * lambda.size() * theta.size() * phi.size(); }
   std::array<std::size_t, 4> shape() const {
     return {alpha.size(), lambda.size(), theta.size(), phi.size()};
@@ -49,7 +58,17 @@ struct Grid {
   std::size_t flat(const NodeIndex& node) const;
   NodeIndex node(std::size_t flat) const;
 
+  std::array<std::size_t, axis_count> indices(std::size_t flat) const;
+  // Steps of the flat index from node to node along each axis.
+  std::array<std::size_t, axis_count> strides() const;
+  // The node next to one along an axis; none at the axis' end.
+  std::optional<std::size_t> before(std::size_t flat, std::size_t axis) const;
+  std::optional<std::size_t> after(std::size_t flat, std::size_t axis) const;
+  // All of these, axis by axis: the nodes that share a face with this one.
+  std::vector<std::size_t> neighbours(std::size_t flat) const;
+
   GgxLobe lobe(const NodeIndex& node) const;
+  GgxLobe lobe(std::size_t flat) const { return lobe(node(flat)); }
 
   bool operator==(const Grid&) const = default;
 };

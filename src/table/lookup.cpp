@@ -33,19 +33,23 @@ GgxLobe bounded_below(GgxLobe lobe, double alpha_min) {
 }  // namespace
 
 Interpolation interpolation(const Grid& grid, const GgxLobe& folded) {
-  const Bracket alpha = bracket(grid.alpha, folded.alpha_x);
   // The roughness as asked for: `alpha_min` bounds the lobe at a node, not the place of a node, so
   // one below it belongs between the nodes that its own value or ratio names.
-  const Bracket lambda = bracket(grid.lambda, second_roughness(grid, folded));
-  const Bracket theta = bracket(grid.theta, folded.theta_radians);
-  const Bracket phi = bracket(grid.phi, folded.phi_radians);
+  const std::array brackets{
+      bracket(grid.alpha, folded.alpha_x), bracket(grid.lambda, second_roughness(grid, folded)),
+      bracket(grid.theta, folded.theta_radians), bracket(grid.phi, folded.phi_radians)};
+  const auto strides = grid.strides();
   Interpolation result;
-  for (std::size_t corner = 0; corner < 16; ++corner) {
-    const std::size_t a = corner >> 3 & 1, l = corner >> 2 & 1, t = corner >> 1 & 1, p = corner & 1;
-    result.nodes[corner] =
-        grid.flat({alpha.nodes[a], lambda.nodes[l], theta.nodes[t], phi.nodes[p]});
-    result.weights[corner] =
-        alpha.weights[a] * lambda.weights[l] * theta.weights[t] * phi.weights[p];
+  for (std::size_t corner = 0; corner < result.nodes.size(); ++corner) {
+    std::size_t node = 0;
+    double weight = 1;
+    for (std::size_t axis = 0; axis < Grid::axis_count; ++axis) {
+      const std::size_t side = corner >> (Grid::axis_count - 1 - axis) & 1;
+      node += brackets[axis].nodes[side] * strides[axis];
+      weight *= brackets[axis].weights[side];
+    }
+    result.nodes[corner] = node;
+    result.weights[corner] = weight;
   }
   return result;
 }

@@ -34,7 +34,7 @@ void Table::set_stored(std::size_t flat, const Eigen::Matrix3d& value) {
 }
 
 Eigen::Matrix3d Table::matrix_at(std::size_t flat) const {
-  return matrix_from_stored(storage, stored_at(flat), grid.lobe(grid.node(flat)));
+  return matrix_from_stored(storage, stored_at(flat), grid.lobe(flat));
 }
 
 }  // namespace ltc

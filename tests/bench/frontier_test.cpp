@@ -138,7 +138,7 @@ TEST(Frontier, JudgesWhatTheTableWouldHold) {
     const std::vector<FittedEntry> table = fit_table(task.grid, task.settings[i].fit, {1});
     for (std::size_t place = 0; place < task.entries.size(); ++place) {
       const std::size_t flat = task.entries[place];
-      judge.set_lobe(task.grid.lobe(task.grid.node(flat)));
+      judge.set_lobe(task.grid.lobe(flat));
       // fit_table also rounds isotropic lobes seen from above; nothing else may differ.
       EXPECT_NEAR(run.measurements[i][place].loss, judge.loss(table[flat].matrix),
                   1e-3 * run.measurements[i][place].loss)
@@ -161,7 +161,7 @@ TEST(Frontier, TheReferenceIsTheBestOfAllOrTheTable) {
   task.reference = &cosines;
   const FrontierRun against = measure_frontier(task);
   HeldOutJudge judge(task.judge.samples, task.judge.directions, task.judge.seed);
-  judge.set_lobe(task.grid.lobe(task.grid.node(task.entries[2])));
+  judge.set_lobe(task.grid.lobe(task.entries[2]));
   EXPECT_EQ(against.reference_loss[2], judge.loss(Eigen::Matrix3d::Identity()));
   EXPECT_EQ(against.measurements[1][2].loss, best.measurements[1][2].loss);
 }

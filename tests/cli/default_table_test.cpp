@@ -139,7 +139,7 @@ std::vector<Eigen::Matrix3d> reference_matrices(const Table& table,
       "fit", entries.size(), {2}, [] { return State(); },
       [&](std::size_t i, State& state) {
         FitRequest request;
-        request.lobe = table.grid.lobe(table.grid.node(entries[i]));
+        request.lobe = table.grid.lobe(entries[i]);
         const Eigen::Matrix3d found = solver->fit(request, *state.workspace, nullptr).matrix;
         request.starts = {table.matrix_at(entries[i])};
         const Eigen::Matrix3d polished = solver->fit(request, *state.workspace, nullptr).matrix;
@@ -155,7 +155,7 @@ Statistics ratios_to(const std::vector<Eigen::Matrix3d>& reference, const Table&
   HeldOutJudge judge = prototype;
   std::vector<EntryComparison> comparisons(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const GgxLobe lobe = table.grid.lobe(table.grid.node(entries[i]));
+    const GgxLobe lobe = table.grid.lobe(entries[i]);
     comparisons[i] = {held_out_loss(judge, lobe, table.matrix_at(entries[i])),
                       held_out_loss(judge, lobe, reference[i]), judge.spread()};
   }
@@ -311,7 +311,7 @@ double mean_node_loss(const Table& table) {
   HeldOutJudge judge(1024, 16);
   double sum = 0;
   for (std::size_t flat = 0; flat < table.grid.size(); flat += 5) {
-    judge.set_lobe(table.grid.lobe(table.grid.node(flat)));
+    judge.set_lobe(table.grid.lobe(flat));
     sum += judge.loss(table.matrix_at(flat));
   }
   return sum;

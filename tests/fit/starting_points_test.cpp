@@ -20,7 +20,7 @@ TEST(StartingPoints, HaveTheirZerosAndAPositiveDeterminantAllOverThePapersGrid) 
   const TargetLattice lattice = make_target_lattice(1024, 0.3);
   TargetSamples target;
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
-    const GgxLobe lobe = grid.lobe(grid.node(flat));
+    const GgxLobe lobe = grid.lobe(flat);
     const LobeFrame frame(lobe);
     const FreeEntries free = free_entries(lobe);
     sample_weighted_target(frame, lattice, target);

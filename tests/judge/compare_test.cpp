@@ -94,7 +94,7 @@ TEST(Compare, ALobeTurnedBy30DegreesIsThatFarAway) {
   settings.directions = 4096;
   const std::vector<EntryComparison> entries = compare(a, b, settings);
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
-    const double theta = grid.lobe(grid.node(flat)).theta_radians;
+    const double theta = grid.lobe(flat).theta_radians;
     const double chord = 2 * std::sin(theta) * std::sin(15 * std::numbers::pi / 180);
     // |cos| of a random direction is uniform on [0, 1]: a mean of 1/2, and over 4096 directions a
     // standard deviation of 0.0045, of which this allows four. And lobes are 1e-4 wide.

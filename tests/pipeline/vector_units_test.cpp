@@ -66,7 +66,7 @@ class VectorUnits : public ::testing::Test {
     std::vector<float> lobe_a(quantiles.size()), lobe_b(quantiles.size());
     double largest = 0;
     for (std::size_t flat = 0; flat < a.grid.size(); ++flat) {
-      const LobeFrame frame(a.grid.lobe(a.grid.node(flat)));
+      const LobeFrame frame(a.grid.lobe(flat));
       quantiles.of_ltc(frame, a.matrix_at(flat), lobe_a.data());
       quantiles.of_ltc(frame, b.matrix_at(flat), lobe_b.data());
       largest = std::max(largest, quantiles.distance(lobe_a.data(), lobe_b.data()) /

@@ -28,7 +28,7 @@ Grid small_grid() {
 std::vector<Eigen::Matrix3d> matrices(const Grid& grid, Storage storage = Storage::matrix) {
   std::vector<Eigen::Matrix3d> stored;
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
-    const GgxLobe lobe = grid.lobe(grid.node(flat));
+    const GgxLobe lobe = grid.lobe(flat);
     stored.push_back(stored_from_matrix(storage, testing::first_order_matrix(lobe), lobe));
     // At theta = 90 degrees the first two columns are almost one.
     stored.back().topLeftCorner<2, 2>().diagonal().array() +=

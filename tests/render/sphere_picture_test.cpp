@@ -119,7 +119,7 @@ TEST(MissingAlbedo, IsIntegratedAndTheRestKept) {
   table.status[3] = Status::skipped;
   fill_missing_albedo(table);
   for (const std::size_t flat : {5, 9}) {
-    const Albedo albedo = integrate_albedo(table.grid.lobe(table.grid.node(flat)), AlbedoRule());
+    const Albedo albedo = integrate_albedo(table.grid.lobe(flat), AlbedoRule());
     EXPECT_EQ(table.amplitude[flat], static_cast<float>(albedo.amplitude));
     EXPECT_EQ(table.fresnel[flat], static_cast<float>(albedo.fresnel));
   }

@@ -64,7 +64,7 @@ TEST(LookUpOfFits, IsAsNearAsADirectFitInEveryQuadrantAndBothRoughnessOrders) {
   FitWorkspacePointer workspace = make_fit_workspace();
   HeldOutJudge judge(4096, 32);
   for (std::size_t flat = 0; flat < matrices.grid.size(); ++flat) {
-    const GgxLobe node = matrices.grid.lobe(matrices.grid.node(flat));
+    const GgxLobe node = matrices.grid.lobe(flat);
     for (const GgxLobe& query : testing::lobes_that_fold_to(node)) {
       judge.set_lobe(query);
       FitRequest request;

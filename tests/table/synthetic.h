@@ -39,7 +39,7 @@ inline Table synthetic_table(const Grid& grid, Storage storage) {
   table.generator = "ltcfit test";
   table.created = "2026-01-02T03:04:05Z";
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const GgxLobe lobe = grid.lobe(grid.node(i));
+    const GgxLobe lobe = grid.lobe(i);
     table.set_stored(i, stored_from_matrix(storage, first_order_matrix(lobe), lobe));
     table.amplitude[i] = static_cast<float>(synthetic_amplitude(lobe));
     table.fresnel[i] = static_cast<float>(synthetic_fresnel(lobe));

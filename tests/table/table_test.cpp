@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "core/error.h"
 #include "table/synthetic.h"
@@ -22,6 +23,40 @@ TEST(Grid, FlatIndexIsCOrderWithPhiFastest) {
   EXPECT_EQ(grid.flat({1, 0, 0, 0}), 40u);
   for (std::size_t i = 0; i < grid.size(); ++i)
     EXPECT_EQ(grid.flat(grid.node(i)), i);
+}
+
+TEST(Grid, NeighboursAreOneStepAwayAlongOneAxis) {
+  const Grid grid = testing::uneven_grid();
+  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    const auto at = grid.indices(flat);
+    std::vector<std::size_t> neighbours;
+    for (std::size_t axis = 0; axis < Grid::axis_count; ++axis)
+      for (const bool up : {false, true}) {
+        const bool there = up ? at[axis] + 1 < grid.shape()[axis] : at[axis] > 0;
+        auto next = at;
+        next[axis] += up ? 1 : -1;
+        const auto found = up ? grid.after(flat, axis) : grid.before(flat, axis);
+        ASSERT_EQ(found.has_value(), there) << flat << " along axis " << axis;
+        if (!there)
+          continue;
+        EXPECT_EQ(grid.indices(*found), next);
+        neighbours.push_back(*found);
+      }
+    EXPECT_EQ(grid.neighbours(flat), neighbours);
+  }
+}
+
+TEST(Grid, AxesHaveTheNumbersAndNamesOfTheirLayout) {
+  Grid grid = testing::uneven_grid();
+  EXPECT_EQ(&grid.axis(0), &grid.alpha);
+  EXPECT_EQ(&grid.axis(1), &grid.lambda);
+  EXPECT_EQ(&grid.axis(2), &grid.theta);
+  EXPECT_EQ(&grid.axis(3), &grid.phi);
+  EXPECT_THROW(grid.axis(4), std::out_of_range);
+  EXPECT_EQ(grid.axis_names()[1], "lambda");
+  grid.layout = Layout::alphax_alphay;
+  EXPECT_EQ(grid.axis_names()[0], "alpha_x");
+  EXPECT_EQ(grid.axis_names()[1], "alpha_y");
 }
 
 TEST(Grid, PaperNodesAreThePublishedOnes) {
@@ -127,9 +162,7 @@ TEST(Table, StoredIsRowMajorAndMatrixAtUndoesTheStorage) {
   const Table synthetic = testing::synthetic_table(grid, Storage::mirror_frame);
   for (std::size_t i = 0; i < grid.size(); ++i)
     // S is of order 2 and rounded to float: 1.2e-7 each in nine entries.
-    EXPECT_LT(
-        (synthetic.matrix_at(i) - testing::first_order_matrix(grid.lobe(grid.node(i)))).norm(),
-        1e-6);
+    EXPECT_LT((synthetic.matrix_at(i) - testing::first_order_matrix(grid.lobe(i))).norm(), 1e-6);
 }
 
 }  // namespace
