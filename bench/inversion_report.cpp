@@ -146,7 +146,7 @@ void print_order_of_interpolation(const Table& table) {
 
 void report(const std::string& path) {
   const Table table = read_table(path);
-  fmt::print("{}: storage {}\n\n", path, storage_name(table.storage));
+  fmt::print("{}: storage {}\n\n", path, name_of(table.storage));
   fmt::print(
       "| | nodes: mean | 99 % | largest | lost | look-ups: mean | 99 % | largest | lost |\n"
       "|---|---|---|---|---|---|---|---|---|\n");
@@ -160,12 +160,12 @@ void report(const std::string& path) {
           measure(table, look_ups(table, memory, hardware_weights), order, single, arithmetic));
   };
   for (const InverseOrder order : {divided, adjugate, factored})
-    row(fmt::format("float, {}", inverse_order_name(order)), order, single, single);
+    row(fmt::format("float, {}", name_of(order)), order, single, single);
   row("float, weights of 8 bits, adjugate", adjugate, single, single, true);
   for (const InverseOrder order : {adjugate, factored})
-    row(fmt::format("half in memory, {} in float", inverse_order_name(order)), order, half, single);
+    row(fmt::format("half in memory, {} in float", name_of(order)), order, half, single);
   for (const InverseOrder order : {divided, adjugate, factored})
-    row(fmt::format("all in half, {}", inverse_order_name(order)), order, half, half);
+    row(fmt::format("all in half, {}", name_of(order)), order, half, half);
   fmt::print("\n");
   print_order_of_interpolation(table);
 }

@@ -55,6 +55,13 @@ FrontierRun measure_frontier(const FrontierTask& task, const RunContext& context
 
 // Where the judged matrices of a setting come from.
 enum class ErrorSource { own_fits, published_table, whole_fits, none };
+constexpr EnumNames<ErrorSource, 4> enum_names(ErrorSource) {
+  return {"source of errors",
+          {{{ErrorSource::own_fits, "its own fits"},
+            {ErrorSource::published_table, "the published table"},
+            {ErrorSource::whole_fits, "whole fits of some entries"},
+            {ErrorSource::none, "nothing"}}}};
+}
 
 struct SettingSummary {
   double median_seconds = 0, mean_seconds = 0;  // an entry

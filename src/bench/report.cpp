@@ -30,7 +30,7 @@ Json json_of(const Grid& grid, const BenchSetting& setting, const SettingSummary
           {"milliseconds_mean", 1e3 * summary.mean_seconds},
           {"table_seconds_one_core", summary.table_seconds},
           {"time_extrapolated", summary.extrapolated},
-          {"error_of", error_source_text(summary.error_source)},
+          {"error_of", name_of(summary.error_source)},
           {"judged", summary.judged},
           {"failures", summary.failures},
           {"ratio_mean", value(ratios.mean)},
@@ -88,7 +88,7 @@ std::vector<std::string> notes(const FrontierReport& report) {
       lines.push_back(fmt::format("{}: time from {} timed steps of {}, error of {}",
                                   task.settings[i].label, task.settings[i].timed_steps,
                                   task.settings[i].fit.sgd.steps,
-                                  error_source_text(report.summaries[i].error_source)));
+                                  name_of(report.summaries[i].error_source)));
   std::string unknown;
   for (std::size_t i = 0; i < task.settings.size(); ++i)
     if (std::isnan(error_of(report.summaries[i])))
@@ -99,20 +99,6 @@ std::vector<std::string> notes(const FrontierReport& report) {
 }
 
 }  // namespace
-
-std::string error_source_text(ErrorSource source) {
-  switch (source) {
-    case ErrorSource::own_fits:
-      return "its own fits";
-    case ErrorSource::published_table:
-      return "the published table";
-    case ErrorSource::whole_fits:
-      return "whole fits of some entries";
-    case ErrorSource::none:
-      break;
-  }
-  return "nothing";
-}
 
 std::string frontier_json(const FrontierReport& report) {
   const FrontierTask& task = report.task;

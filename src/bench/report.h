@@ -21,7 +21,7 @@ struct FrontierReport {
 };
 
 // "their own fits", "the published table", …
-std::string error_source_text(ErrorSource source);
+std::string name_of(ErrorSource source);
 
 // One object: the conditions of the run, and `settings`, one object a setting. Units are in the
 // names; what was not measured is null.

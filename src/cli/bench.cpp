@@ -71,8 +71,8 @@ std::string extrapolation_text(const BenchSetting& setting, const SettingSummary
                                  setting.name, setting.timed_steps, setting.fit.sgd.steps);
   if (summary.error_source == ErrorSource::none)
     return text + "no error without --published or --full-sgd\n";
-  return text + fmt::format("error of {}, {} {}\n", error_source_text(summary.error_source),
-                            summary.judged, summary.judged == 1 ? "entry" : "entries");
+  return text + fmt::format("error of {}, {} {}\n", name_of(summary.error_source), summary.judged,
+                            summary.judged == 1 ? "entry" : "entries");
 }
 
 // "default takes 1/6100 of the time of sgd-published", where both were run.

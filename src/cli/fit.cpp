@@ -143,14 +143,11 @@ Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const
       matrix.col(1) = -matrix.col(1);
     return matrix;
   }
-  for (const StartKind kind :
-       {StartKind::first_order, StartKind::moments, StartKind::identity, StartKind::random})
-    if (text == start_name(kind))
+  for (const auto& [kind, name] : enum_names(StartKind()).pairs)
+    if (text == name)
       return starting_matrix(kind, lobe, seed);
-  throw InputError(
-      fmt::format("--start {}: expected first-order, moments, identity, random, from=TABLE or "
-                  "matrix=NINE,NUMBERS",
-                  shell_quoted(text)));
+  throw InputError(fmt::format("--start {}: expected {}, from=TABLE or matrix=NINE,NUMBERS",
+                               shell_quoted(text), fmt::join(all_names<StartKind>(), ", ")));
 }
 
 // Which entries are made with the one that is asked for: those of the scene, or those of the table
@@ -320,7 +317,7 @@ void add_fit_options(CLI::App& app, Arguments& arguments) {
   constexpr const char* group = "How to fit";
   allow_names(app.add_option("--solver", arguments.solver,
                              "gauss-newton, sgd or l3-nelder-mead [fit.solver]"),
-              {"gauss-newton", "sgd", "l3-nelder-mead"})
+              all_names<SolverKind>())
       ->option_text("NAME")
       ->group(group);
   allow(app.add_option("--seed", arguments.seed, "seed of everything random [fit.seed]"),

@@ -68,7 +68,7 @@ std::vector<NamedStep> named_steps(const FitReport& report) {
 }
 
 std::string status_text(const FitReport& report) {
-  std::string text = status_word(report.fit.fitted.status);
+  std::string text(name_of(report.fit.fitted.status));
   if (report.representative)
     text += fmt::format(" by symmetry from {}, whose fit this is",
                         entry_text(report.grid, *report.representative));
@@ -82,9 +82,9 @@ std::string start_text(const FitReport& report) {
     return report.start +
            (report.fit.start_abandoned ? ": abandoned, the solver's own led further" : "");
   if (report.settings.solver == SolverKind::sgd)
-    return std::string(start_name(report.settings.sgd.start));
+    return std::string(name_of(report.settings.sgd.start));
   if (report.settings.solver == SolverKind::l3_nelder_mead)
-    return std::string(start_name(report.settings.l3.start));
+    return std::string(name_of(report.settings.l3.start));
   std::string text;
   for (int start = 0; start < report.settings.gauss_newton.starts; ++start)
     text += (text.empty() ? "" : ", ") + own_start_name(start);
@@ -118,18 +118,6 @@ std::string steps_text(const FitReport& report) {
   return text;
 }
 
-std::string solver_name(SolverKind solver) {
-  switch (solver) {
-    case SolverKind::gauss_newton:
-      return "gauss-newton";
-    case SolverKind::sgd:
-      return "sgd";
-    case SolverKind::l3_nelder_mead:
-      return "l3-nelder-mead";
-  }
-  return "unknown";
-}
-
 Json json_of(const FitReport& report, const std::vector<NamedStep>& steps) {
   Json all = Json::array();
   for (const auto& [phase, number, step] : steps)
@@ -146,20 +134,6 @@ Json json_of(const FitReport& report, const std::vector<NamedStep>& steps) {
 
 }  // namespace
 
-std::string_view start_name(StartKind kind) {
-  switch (kind) {
-    case StartKind::first_order:
-      return "first-order";
-    case StartKind::moments:
-      return "moments";
-    case StartKind::identity:
-      return "identity";
-    case StartKind::random:
-      return "random";
-  }
-  return "unknown";
-}
-
 std::string report_text(const FitReport& report) {
   const LobeFit& fit = report.fit;
   std::string text = fmt::format("lobe     {} (degrees)\n", lobe_line(fit.lobe));
@@ -169,8 +143,8 @@ std::string report_text(const FitReport& report) {
   if (report.entry && report.refined)
     text +=
         "refined  not here: this is the entry before refine.steps; --as-in TABLE shows a table's\n";
-  text += fmt::format("solver   {}, seed {}\n", solver_name(report.settings.solver),
-                      report.settings.seed);
+  text +=
+      fmt::format("solver   {}, seed {}\n", name_of(report.settings.solver), report.settings.seed);
   text += fmt::format("status   {}\n", status_text(report));
   text += fmt::format("start    {}\n", start_text(report));
   text += steps_text(report);
@@ -197,17 +171,17 @@ std::string report_json(const FitReport& report) {
     json["entry"] = entry_text(report.grid, *report.entry);
   if (report.representative)
     json["copied_from"] = entry_text(report.grid, *report.representative);
-  json["solver"] = solver_name(report.settings.solver);
+  json["solver"] = name_of(report.settings.solver);
   json["seed"] = report.settings.seed;
   json["start"] = start_text(report);
-  json["status"] = status_word(fit.fitted.status);
+  json["status"] = name_of(fit.fitted.status);
   json["steps"] = json_of(report, named_steps(report));
   json["iterations"] = fit.fitted.steps;
   json["matrix"] = {{"fitted", matrix_json(fit.fitted.matrix)},
                     {"aligned", matrix_json(fit.aligned)},
                     {"final", matrix_json(fit.matrix)},
                     {"stored", matrix_json(fit.finished.stored)}};
-  json["storage"] = storage_name(report.storage);
+  json["storage"] = name_of(report.storage);
   json["determinant"] = fit.matrix.determinant();
   json["condition_number"] = condition_number(fit.matrix);
   json["largest_zeroed"] = fit.finished.zeroed;
@@ -245,7 +219,7 @@ picture::Words picture_words(const FitReport& report) {
                   steps == 0 ? "; no steps were needed" : ""),
       fmt::format("{}, {}; determinant {:.3e}, condition number {:.3e}; amplitude {:.4f}, Fresnel "
                   "{:.4f}",
-                  status_word(fit.fitted.status), solver_name(report.settings.solver),
+                  name_of(fit.fitted.status), name_of(report.settings.solver),
                   fit.matrix.determinant(), condition_number(fit.matrix), fit.albedo.amplitude,
                   fit.albedo.fresnel)};
   return words;

@@ -15,7 +15,6 @@
 namespace ltc::cli {
 
 // "first-order", "moments", "identity", "random", as in configs.
-std::string_view start_name(StartKind kind);
 
 struct FitReport {
   LobeFit fit;

@@ -30,12 +30,6 @@ std::string lobe_caption(const GgxLobe& lobe) {
                      lobe.alpha_y, degrees(lobe.theta_radians), degrees(lobe.phi_radians));
 }
 
-std::string status_word(Status status) {
-  constexpr std::array<const char*, 5> words = {"skipped", "fitted", "copied", "analytic",
-                                                "failed"};
-  return words.at(static_cast<std::size_t>(status));
-}
-
 std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix) {
   std::string text;
   for (int row = 0; row < 3; ++row)

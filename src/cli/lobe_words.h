@@ -17,9 +17,6 @@ namespace ltc::cli {
 std::string lobe_line(const GgxLobe& lobe);
 std::string lobe_caption(const GgxLobe& lobe);
 
-// "fitted", "analytic", …
-std::string status_word(Status status);
-
 // Four lines: the rows behind `name`, then determinant and condition number.
 std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix);
 

@@ -23,7 +23,7 @@ std::string entry_line(const StoredReport& report, bool refined) {
   std::string text =
       fmt::format("entry    {}: {}", entry_text(table.grid, flat), lobe_text(table.grid, flat));
   if (report.contents.loss)
-    text += fmt::format("\nfile     {}, {} steps{}, loss {:.4e}", status_word(table.status[flat]),
+    text += fmt::format("\nfile     {}, {} steps{}, loss {:.4e}", name_of(table.status[flat]),
                         table.iterations[flat], refined ? ", then refined" : "",
                         report.lobe.stated_loss);
   return text + '\n';
@@ -61,7 +61,7 @@ std::string report_text(const StoredReport& report) {
   const LobeFit& floor = lobe.floor;
   const bool refined = report.table.refined == true;
   std::string text =
-      fmt::format("table    {}, storage {}{}\n", report.file, storage_name(report.table.storage),
+      fmt::format("table    {}, storage {}{}\n", report.file, name_of(report.table.storage),
                   refined ? ", refined after the fit" : "");
   text += fmt::format("lobe     {} (degrees)\n", lobe_line(lobe.lobe));
   text += lobe.entry ? entry_line(report, refined) : nodes_text(report);
@@ -87,13 +87,13 @@ std::string report_json(const StoredReport& report) {
   };
   Json json;
   json["table"] = report.file;
-  json["storage"] = storage_name(report.table.storage);
+  json["storage"] = name_of(report.table.storage);
   json["refined"] = report.table.refined ? Json(*report.table.refined) : Json(nullptr);
   json["lobe"] = lobe_json(lobe.lobe);
   if (lobe.entry) {
     json["entry"] = entry_text(grid, *lobe.entry);
     if (report.contents.loss) {
-      json["status"] = status_word(report.table.status[*lobe.entry]);
+      json["status"] = name_of(report.table.status[*lobe.entry]);
       json["iterations"] = report.table.iterations[*lobe.entry];
     }
   } else {

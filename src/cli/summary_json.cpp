@@ -14,14 +14,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json entries_json(const TableSummary& summary) {
-  const auto count = [&](Status status) {
-    return summary.entries_by_status[static_cast<std::size_t>(status)];
-  };
-  return {{"fitted", count(Status::fitted)},
-          {"copied", count(Status::copied)},
-          {"analytic", count(Status::analytic)},
-          {"skipped", count(Status::skipped)},
-          {"failed", count(Status::failed)}};
+  Json json;
+  for (const Status status :
+       {Status::fitted, Status::copied, Status::analytic, Status::skipped, Status::failed})
+    json[std::string(name_of(status))] =
+        summary.entries_by_status[static_cast<std::size_t>(status)];
+  return json;
 }
 
 Json loss_json(const TableSummary& summary) {

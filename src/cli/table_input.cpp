@@ -13,20 +13,14 @@
 namespace ltc::cli {
 
 void add_layout_option(CLI::App& app, std::optional<Layout>& layout) {
-  const auto set = [&layout](const std::string& name) {
-    layout =
-        name == layout_name(Layout::alphax_alphay) ? Layout::alphax_alphay : Layout::alpha_lambda;
-  };
+  const auto set = [&layout](const std::string& name) { layout = value_named<Layout>(name); };
   CLI::Option* const option = app.add_option_function<std::string>(
       "--layout", set,
       fmt::format(
           "what the first two axes of an {} hold: alpha-lambda or alphax-alphay [told apart "
           "by the symmetry of alpha_x and alpha_y]",
           endings_text([](const Format& format) { return format.without_axes; })));
-  allow_names(option, {std::string(layout_name(Layout::alpha_lambda)),
-                       std::string(layout_name(Layout::alphax_alphay))})
-      ->option_text("LAYOUT")
-      ->group("How to read tables");
+  allow_names(option, all_names<Layout>())->option_text("LAYOUT")->group("How to read tables");
 }
 
 Table read_input(const std::string& file, std::optional<Layout> layout) {

@@ -24,7 +24,7 @@ std::string table_text(const Validation& report) {
   const auto skipped =
       std::count(report.table.status.begin(), report.table.status.end(), Status::skipped);
   return fmt::format("{}: {} entries, storage {}, {} skipped\n{}\n\n", report.file,
-                     shape_text(grid), storage_name(report.table.storage), skipped,
+                     shape_text(grid), name_of(report.table.storage), skipped,
                      kind_text(report.table));
 }
 

@@ -16,6 +16,7 @@
 
 #include "config/draft.h"
 #include "config/value.h"
+#include "core/enum_names.h"
 #include "core/range.h"
 
 namespace ltc::config {
@@ -79,8 +80,8 @@ KeyFor<Member> key(std::string name, Member member, Range range, std::string sum
 
 // true or false.
 template <typename Member>
-KeyFor<Member> key(std::string name, Member member, std::string summary) {
-  static_assert(std::is_same_v<MemberType<Member>, bool>);
+requires std::is_same_v < MemberType<Member>,
+bool > KeyFor<Member> key(std::string name, Member member, std::string summary) {
   return {std::move(name), "true or false", std::move(summary),
           [=](SettingsType<Member>& settings, const Value& value) {
             if (!std::holds_alternative<bool>(value))
@@ -122,6 +123,16 @@ KeyFor<Member> key(std::string name, Member member, Choices<MemberType<Member>> 
                 return std::string(choice);
             return {};
           }};
+}
+
+// One of the names of an enum.
+template <typename Member>
+requires Named<MemberType<Member>> KeyFor<Member> key(std::string name, Member member,
+                                                      std::string summary) {
+  Choices<MemberType<Member>> choices;
+  for (const auto& [value, choice] : enum_names(MemberType<Member>()).pairs)
+    choices.emplace_back(choice, value);
+  return key(std::move(name), member, std::move(choices), std::move(summary));
 }
 
 // A name for files that is good on every system: no folders, nothing hidden.

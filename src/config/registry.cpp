@@ -10,9 +10,6 @@ constexpr double most_seed = 9007199254740992;  // 2^53: exact wherever JSON or 
 // The four keys of an axis; angles carry their unit in the name.
 template <typename Member>
 std::vector<Key> axis_keys(std::string section, Member axis, std::string_view unit, Range range) {
-  const Choices<Warp> warps = {{warp_name(Warp::linear), Warp::linear},
-                               {warp_name(Warp::sqrt), Warp::sqrt},
-                               {warp_name(Warp::complement_sqrt), Warp::complement_sqrt}};
   section = "table." + section + ".";
   return {
       key(
@@ -25,20 +22,16 @@ std::vector<Key> axis_keys(std::string section, Member axis, std::string_view un
           section + "nodes", [=](Draft& d) { return &axis(d)->nodes; }, Range{1, 64},
           "number of nodes; one node stands at the first value"),
       key(
-          section + "warp", [=](Draft& d) { return &axis(d)->warp; }, warps,
+          section + "warp", [=](Draft& d) { return &axis(d)->warp; },
           "where the nodes are dense: linear nowhere, sqrt near first, complement-sqrt near last"),
   };
 }
 
 // clang-format off
 std::vector<Key> table_keys() {
-  const Choices<Storage> storages = {
-      {storage_name(Storage::matrix), Storage::matrix},
-      {storage_name(Storage::roughness_scaled), Storage::roughness_scaled},
-      {storage_name(Storage::mirror_frame), Storage::mirror_frame}};
   std::vector<Key> all = {
       key("table.brdf", [](Draft& d) { return &d.config.brdf; }, Choices<std::string>{{"ggx", "ggx"}}, "the BRDF that is fitted"),
-      key("table.storage", [](Draft& d) { return &d.config.storage; }, storages, "what the table holds and a reader interpolates"),
+      key("table.storage", [](Draft& d) { return &d.config.storage; }, "what the table holds and a reader interpolates"),
       key("table.alpha_min", [](Draft& d) { return &d.config.grid.alpha_min; }, Range{1e-6, 1}, "least roughness: smaller alpha_x and alpha_y are raised to it"),
   };
   const auto add = [&](const std::vector<Key>& more) { all.insert(all.end(), more.begin(), more.end()); };
@@ -50,12 +43,9 @@ std::vector<Key> table_keys() {
 }
 
 std::vector<Key> fit_keys() {
-  const Choices<SolverKind> solvers = {{"gauss-newton", SolverKind::gauss_newton}, {"sgd", SolverKind::sgd}, {"l3-nelder-mead", SolverKind::l3_nelder_mead}};
-  const Choices<TargetKind> targets = {{"weighted", TargetKind::weighted}, {"rejection", TargetKind::rejection}};
-  const Choices<StartKind> starts = {{"first-order", StartKind::first_order}, {"moments", StartKind::moments}, {"identity", StartKind::identity}, {"random", StartKind::random}};
   return {
-      key("fit.solver", [](Draft& d) { return &d.config.fit.solver; }, solvers, "which optimiser fits the matrices"),
-      key("fit.target", [](Draft& d) { return &d.config.fit.target; }, targets, "how the lobe is sampled: weighted lattice, or algorithm 1 with rejection as published"),
+      key("fit.solver", [](Draft& d) { return &d.config.fit.solver; }, "which optimiser fits the matrices"),
+      key("fit.target", [](Draft& d) { return &d.config.fit.target; }, "how the lobe is sampled: weighted lattice, or algorithm 1 with rejection as published"),
       key("fit.seed", [](Draft& d) { return &d.config.fit.seed; }, {0, most_seed}, "seed of what is random: sgd, rejection, random starts; without effect on the default settings"),
 
       key("fit.gauss_newton.coarse_samples", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_samples; }, {64, 65536}, "cosine samples of the coarse phase"),
@@ -79,14 +69,14 @@ std::vector<Key> fit_keys() {
       key("fit.sgd.step_scale", [](Draft& d) { return &d.config.fit.sgd.step_scale; }, above(0, 1000), "the step size is learning_rate * step_scale * step_decay^step"),
       key("fit.sgd.step_decay", [](Draft& d) { return &d.config.fit.sgd.step_decay; }, above(0, 1), "factor on the step size after each step"),
       key("fit.sgd.averaged_steps", [](Draft& d) { return &d.config.fit.sgd.averaged_steps; }, {1, 10'000'000}, "the last steps whose matrices are averaged, at most all"),
-      key("fit.sgd.start", [](Draft& d) { return &d.config.fit.sgd.start; }, starts, "where the descent starts"),
+      key("fit.sgd.start", [](Draft& d) { return &d.config.fit.sgd.start; }, "where the descent starts"),
       key("fit.sgd.scaled_variables", [](Draft& d) { return &d.config.fit.sgd.scaled_variables; }, "descend in the mirror's frame divided by the roughness, not in M itself"),
       key("fit.sgd.lattice_samples", [](Draft& d) { return &d.config.fit.sgd.lattice_samples; }, "draw a step's samples from randomly shifted lattices, not independently; needs the weighted target"),
 
       key("fit.l3.samples", [](Draft& d) { return &d.config.fit.l3.samples; }, {16, 65536}, "directions from the LTC, and as many from the lobe, that the L3 error is integrated with"),
       key("fit.l3.evaluations", [](Draft& d) { return &d.config.fit.l3.evaluations; }, {1, 1'000'000}, "most evaluations of the L3 error an entry"),
       key("fit.l3.tolerance", [](Draft& d) { return &d.config.fit.l3.tolerance; }, {0, 1}, "ends when the errors of the simplex differ by less than this share"),
-      key("fit.l3.start", [](Draft& d) { return &d.config.fit.l3.start; }, starts, "where the simplex starts"),
+      key("fit.l3.start", [](Draft& d) { return &d.config.fit.l3.start; }, "where the simplex starts"),
   };
 }
 

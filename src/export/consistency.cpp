@@ -44,7 +44,7 @@ std::string fault(const Axis& axis, double least, double most) {
     const double expected =
         axis.value(static_cast<double>(i) / static_cast<double>(nodes.size() - 1));
     if (std::abs(nodes[i] - expected) > tolerance)
-      return fmt::format("node {} is {}; warp {} puts it at {}", i, nodes[i], warp_name(axis.warp),
+      return fmt::format("node {} is {}; warp {} puts it at {}", i, nodes[i], name_of(axis.warp),
                          expected);
   }
   return {};

@@ -69,7 +69,7 @@ Grid read_grid(const Imf::Header& header, const fs::path& path) {
     for (std::size_t i = 0; i < Grid::axis_count; ++i) {
       const std::string name(grid.axis_names()[i]);
       grid.axis(i) = {axes.at(name).get<std::vector<double>>(),
-                      warp_from_name(warps.at(name).get<std::string>())};
+                      value_named<Warp>(warps.at(name).get<std::string>())};
     }
   } catch (const nlohmann::json::exception& error) {
     refuse(path, fmt::format("header attribute ltc:axes or ltc:warp: {}", error.what()));
@@ -144,7 +144,7 @@ Table read_header(const Imf::InputFile& file, std::size_t index, std::uintmax_t 
   require_size(header, grid, path);
   require_room_for_pixels(grid, file_bytes, path);
   const auto storage = attribute<Imf::StringAttribute>(header, "ltc:storage", path);
-  Table table = Table::empty(grid, storage_from_name(storage));
+  Table table = Table::empty(grid, value_named<Storage>(storage));
   table.refined = read_refined(header, path);
   table.precision = has_half_channel(header) ? Precision::half : Precision::single;
   return table;

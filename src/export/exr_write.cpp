@@ -76,7 +76,7 @@ Imf::Header make_header(const Table& table, std::size_t file, Imf::PixelType typ
   for (std::size_t i = 0; i < Grid::axis_count; ++i) {
     const std::string name(table.grid.axis_names()[i]);
     axes[name] = table.grid.axis(i).nodes;
-    warps[name] = warp_name(table.grid.axis(i).warp);
+    warps[name] = name_of(table.grid.axis(i).warp);
   }
   const Size size = atlas_size(table.grid);
   Imf::Header header(static_cast<int>(size.width), static_cast<int>(size.height));
@@ -86,7 +86,7 @@ Imf::Header make_header(const Table& table, std::size_t file, Imf::PixelType typ
   header.insert("ltc:format_version", Imf::IntAttribute(version));
   header.insert("ltc:axes", Imf::StringAttribute(axes.dump()));
   header.insert("ltc:warp", Imf::StringAttribute(warps.dump()));
-  header.insert("ltc:storage", Imf::StringAttribute(std::string(storage_name(table.storage))));
+  header.insert("ltc:storage", Imf::StringAttribute(std::string(name_of(table.storage))));
   header.insert("ltc:alpha_min", Imf::DoubleAttribute(table.grid.alpha_min));
   if (table.refined)
     header.insert("ltc:refined", Imf::IntAttribute(*table.refined));

@@ -36,7 +36,7 @@ void write_attributes(Hdf5Output& file, const Table& table) {
   file.text(root, "format", table_format);
   file.number(root, "format_version", std::int32_t{table_format_version});
   file.text(root, "brdf", table.brdf);
-  file.text(root, "storage", std::string(storage_name(table.storage)));
+  file.text(root, "storage", std::string(name_of(table.storage)));
   file.number(root, "alpha_min", table.grid.alpha_min);
   file.number(root, "seed", table.seed);
   file.text(root, "generator", table.generator);
@@ -52,7 +52,7 @@ void write_axes(Hdf5Output& file, const Grid& grid) {
     const Axis& axis = grid.axis(i);
     const std::string name = axis_dataset(grid.axis_names()[i]);
     file.values<double>(name, {axis.size()}, axis.nodes);
-    file.text(name, "warp", std::string(warp_name(axis.warp)));
+    file.text(name, "warp", std::string(name_of(axis.warp)));
   }
 }
 
@@ -91,12 +91,12 @@ void require_format(const Hdf5Input& file, const fs::path& path) {
 }
 
 // Names the file when a name in it is not known.
-template <class FromName>
-auto named(const Hdf5Input& file, const fs::path& path, const std::string& object,
-           const std::string& attribute, FromName from_name) {
+template <Named Enum>
+Enum named(const Hdf5Input& file, const fs::path& path, const std::string& object,
+           const std::string& attribute) {
   const std::string name = file.text(object, attribute);
   try {
-    return from_name(name);
+    return value_named<Enum>(name);
   } catch (const InputError& error) {
     throw InputError(
         fmt::format("{}: attribute {} of {}: {}", path.string(), attribute, object, error.what()));
@@ -110,7 +110,7 @@ Axis read_axis(const Hdf5Input& file, const fs::path& path, const std::string& n
                                  name, max_nodes_per_axis));
   Axis axis;
   axis.nodes = file.values<double>(name, shape);
-  axis.warp = named(file, path, name, "warp", warp_from_name);
+  axis.warp = named<Warp>(file, path, name, "warp");
   return axis;
 }
 
@@ -135,7 +135,7 @@ std::optional<bool> read_refined(const Hdf5Input& file, const fs::path& path) {
 }
 
 void read_attributes(const Hdf5Input& file, const fs::path& path, Table& table) {
-  table.storage = named(file, path, root, "storage", storage_from_name);
+  table.storage = named<Storage>(file, path, root, "storage");
   table.brdf = file.text(root, "brdf");
   table.seed = file.natural(root, "seed");
   table.generator = file.text(root, "generator");

@@ -92,7 +92,7 @@ const std::vector<double>& Table::axis(std::size_t index) const {
 }
 
 std::string_view Table::storage() const {
-  return ltc::storage_name(data_->table.storage);
+  return ltc::name_of(data_->table.storage);
 }
 
 const std::string& Table::config() const {

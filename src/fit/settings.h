@@ -5,13 +5,31 @@
 
 #include <cstdint>
 
+#include "core/enum_names.h"
+
 namespace ltc {
 
-// "gauss-newton", "sgd", "l3-nelder-mead"
 enum class SolverKind { gauss_newton, sgd, l3_nelder_mead };
-enum class TargetKind { weighted, rejection };  // "weighted", "rejection"
-// "first-order", "moments", "identity", "random"
+constexpr EnumNames<SolverKind, 3> enum_names(SolverKind) {
+  return {"solver",
+          {{{SolverKind::gauss_newton, "gauss-newton"},
+            {SolverKind::sgd, "sgd"},
+            {SolverKind::l3_nelder_mead, "l3-nelder-mead"}}}};
+}
+
+enum class TargetKind { weighted, rejection };
+constexpr EnumNames<TargetKind, 2> enum_names(TargetKind) {
+  return {"target", {{{TargetKind::weighted, "weighted"}, {TargetKind::rejection, "rejection"}}}};
+}
+
 enum class StartKind { first_order, moments, identity, random };
+constexpr EnumNames<StartKind, 4> enum_names(StartKind) {
+  return {"start",
+          {{{StartKind::first_order, "first-order"},
+            {StartKind::moments, "moments"},
+            {StartKind::identity, "identity"},
+            {StartKind::random, "random"}}}};
+}
 
 // Quantile Gauss-Newton, from a coarse sample set to a fine one.
 struct GaussNewtonSettings {

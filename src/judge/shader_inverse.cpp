@@ -113,18 +113,6 @@ Eigen::Matrix3d seen_in(Storage storage, const Eigen::Matrix3d& stored, const Lo
 
 }  // namespace
 
-std::string_view inverse_order_name(InverseOrder order) {
-  switch (order) {
-    case InverseOrder::divided:
-      return "cofactors over determinant";
-    case InverseOrder::adjugate:
-      return "adjugate";
-    case InverseOrder::factored:
-      return "adjugate in the mirror's frame, roughness factored out";
-  }
-  throw InputError("unknown order of inversion");
-}
-
 Eigen::Matrix3d seen_by_shader(Storage storage, const Eigen::Matrix3d& stored,
                                const LobeFrame& frame, InverseOrder order, Precision memory,
                                Precision arithmetic) {

@@ -28,7 +28,12 @@ enum class InverseOrder {
   // adj(F' M A^-1), F' = Q^T. The caller turns vertices by Q^T first and divides rows by A last.
   factored,
 };
-std::string_view inverse_order_name(InverseOrder order);
+constexpr EnumNames<InverseOrder, 3> enum_names(InverseOrder) {
+  return {"order of inversion",
+          {{{InverseOrder::divided, "cofactors over determinant"},
+            {InverseOrder::adjugate, "adjugate"},
+            {InverseOrder::factored, "adjugate in the mirror's frame, roughness factored out"}}}};
+}
 
 // The matrix whose inverse in all digits is what a shader has: M but for what storing S, forming M
 // and inverting it lose. `stored` is rounded to `memory` first; all that follows is in

@@ -68,7 +68,7 @@ std::string header(const Validation& validation) {
              "storage {}{}</p>\n<p class=\"faint\">{}</p>\n",
              escaped(validation.file), shape_text(table.grid, " × "),
              table.grid.layout == Layout::alphax_alphay ? "αx, αy" : "α, λ",
-             storage_name(table.storage), escaped(made), escaped(kind_text(table))) +
+             name_of(table.storage), escaped(made), escaped(kind_text(table))) +
          sentence(validation);
 }
 

@@ -3,9 +3,7 @@
 #include "table/axis.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,12 +11,6 @@
 
 namespace ltc {
 namespace {
-
-constexpr std::array<std::pair<Warp, std::string_view>, 3> warp_names{{
-    {Warp::linear, "linear"},
-    {Warp::sqrt, "sqrt"},
-    {Warp::complement_sqrt, "complement-sqrt"},
-}};
 
 double warped(Warp warp, double x) {
   switch (warp) {
@@ -54,21 +46,6 @@ void require_range(double first, double last, std::size_t count) {
 }
 
 }  // namespace
-
-std::string_view warp_name(Warp warp) {
-  for (const auto& [value, name] : warp_names)
-    if (value == warp)
-      return name;
-  throw InputError(fmt::format("warp {} is unknown", static_cast<int>(warp)));
-}
-
-Warp warp_from_name(std::string_view name) {
-  for (const auto& [value, known] : warp_names)
-    if (known == name)
-      return value;
-  throw InputError(
-      fmt::format("warp \"{}\" is unknown; allowed: linear, sqrt, complement-sqrt", name));
-}
 
 Axis Axis::make(double first, double last, std::size_t count, Warp warp) {
   require_range(first, last, count);

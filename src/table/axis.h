@@ -4,9 +4,9 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <string_view>
 #include <vector>
+
+#include "core/enum_names.h"
 
 namespace ltc {
 
@@ -17,9 +17,12 @@ enum class Warp {
   complement_sqrt,  // u = 1 - sqrt(1 - x): nodes dense near `last`
 };
 
-// "linear", "sqrt", "complement-sqrt", as in files. Throws InputError on another name.
-std::string_view warp_name(Warp warp);
-Warp warp_from_name(std::string_view name);
+constexpr EnumNames<Warp, 3> enum_names(Warp) {
+  return {"warp",
+          {{{Warp::linear, "linear"},
+            {Warp::sqrt, "sqrt"},
+            {Warp::complement_sqrt, "complement-sqrt"}}}};
+}
 
 struct Axis {
   std::vector<double> nodes;  // strictly increasing

@@ -25,7 +25,7 @@ void require_same(std::string_view source, std::string_view what, const std::str
 
 std::string text_of(const Axis& axis, double unit) {
   std::string text = fmt::format("{} nodes from {} to {}, {}", axis.size(), axis.first() / unit,
-                                 axis.last() / unit, warp_name(axis.warp));
+                                 axis.last() / unit, name_of(axis.warp));
   // A file may place its nodes where no warp does.
   const Axis regular = Axis::make(axis.first(), axis.last(), axis.size(), axis.warp);
   return axis == regular ? text : text + " but for its nodes";
@@ -83,8 +83,8 @@ void require_extendable(const Table& existing, std::string_view source, const Gr
                         Storage storage, std::string_view brdf) {
   require_same(source, "BRDF", fmt::format("\"{}\"", existing.brdf), fmt::format("\"{}\"", brdf),
                existing.brdf == brdf);
-  require_same(source, "storage", fmt::format("\"{}\"", storage_name(existing.storage)),
-               fmt::format("\"{}\"", storage_name(storage)), existing.storage == storage);
+  require_same(source, "storage", fmt::format("\"{}\"", name_of(existing.storage)),
+               fmt::format("\"{}\"", name_of(storage)), existing.storage == storage);
   const auto require_same_axis = [&](std::string_view what, const Axis& found, const Axis& expected,
                                      double unit) {
     require_same(source, what, text_of(found, unit), text_of(expected, unit), found == expected);

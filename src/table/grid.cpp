@@ -7,10 +7,6 @@
 
 namespace ltc {
 
-std::string_view layout_name(Layout layout) {
-  return layout == Layout::alphax_alphay ? "alphax-alphay" : "alpha-lambda";
-}
-
 Grid Grid::paper(std::size_t nodes_per_axis) {
   return paper({nodes_per_axis, nodes_per_axis, nodes_per_axis, nodes_per_axis});
 }

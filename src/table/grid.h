@@ -25,8 +25,10 @@ enum class Layout {
   alpha_lambda,   // the larger roughness, and the ratio of the smaller to it
   alphax_alphay,  // both roughnesses; read only, of the other published table
 };
-// "alpha-lambda", "alphax-alphay".
-std::string_view layout_name(Layout layout);
+constexpr EnumNames<Layout, 2> enum_names(Layout) {
+  return {"layout",
+          {{{Layout::alpha_lambda, "alpha-lambda"}, {Layout::alphax_alphay, "alphax-alphay"}}}};
+}
 
 // Axes: alpha is the larger roughness, lambda the ratio of the smaller to the larger, theta and phi
 // the view direction in radians. alpha_x = max(alpha, alpha_min), alpha_y = max(lambda alpha,

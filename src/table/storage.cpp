@@ -2,38 +2,7 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "table/storage.h"
 
-#include <array>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "core/error.h"
-
 namespace ltc {
-namespace {
-
-constexpr std::array<std::pair<Storage, std::string_view>, 3> storage_names{{
-    {Storage::matrix, "matrix"},
-    {Storage::roughness_scaled, "roughness-scaled"},
-    {Storage::mirror_frame, "mirror-frame"},
-}};
-
-}  // namespace
-
-std::string_view storage_name(Storage storage) {
-  for (const auto& [value, name] : storage_names)
-    if (value == storage)
-      return name;
-  throw InputError(fmt::format("storage {} is unknown", static_cast<int>(storage)));
-}
-
-Storage storage_from_name(std::string_view name) {
-  for (const auto& [value, known] : storage_names)
-    if (known == name)
-      return value;
-  throw InputError(fmt::format(
-      "storage \"{}\" is unknown; allowed: matrix, roughness-scaled, mirror-frame", name));
-}
 
 // 1 - x^2/(1 + z) = (y^2 + z + z^2)/(1 + z): of a grazing view nothing else would be left than the
 // rounding of 1.

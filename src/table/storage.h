@@ -4,9 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string_view>
 
 #include "brdf/ggx.h"
+#include "core/enum_names.h"
 
 namespace ltc {
 
@@ -17,9 +17,12 @@ enum class Storage {
   mirror_frame,      // M = Q S A, Q = mirror_rotation(omega_v)
 };
 
-// "matrix", "roughness-scaled", "mirror-frame", as in files. Throws InputError on another name.
-std::string_view storage_name(Storage storage);
-Storage storage_from_name(std::string_view name);
+constexpr EnumNames<Storage, 3> enum_names(Storage) {
+  return {"storage",
+          {{{Storage::matrix, "matrix"},
+            {Storage::roughness_scaled, "roughness-scaled"},
+            {Storage::mirror_frame, "mirror-frame"}}}};
+}
 
 // The least rotation from z to the mirror direction (-vx, -vy, vz) of a unit view direction, vz >
 // -1.

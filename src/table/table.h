@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/enum_names.h"
 #include "table/grid.h"
 #include "table/precision.h"
 #include "table/storage.h"
@@ -23,6 +24,15 @@ enum class Status : std::uint8_t {
   failed = 4,    // the solver found no finite matrix; its values are NaN
 };
 
+constexpr EnumNames<Status, 5> enum_names(Status) {
+  return {"status",
+          {{{Status::skipped, "skipped"},
+            {Status::fitted, "fitted"},
+            {Status::copied, "copied"},
+            {Status::analytic, "analytic"},
+            {Status::failed, "failed"}}}};
+}
+
 // Whether entries of this status have values; those of the others are NaN.
 inline bool has_values(Status status) {
   return status != Status::skipped && status != Status::failed;
@@ -36,8 +46,8 @@ struct Table {
   std::string config;     // the full effective TOML
   std::string generator;  // program, version, commit
   std::string created;    // UTC, ISO 8601
-  // Whether nodes were moved for the sake of what lies between them (refine/refine.h) and stayed so;
-  // nothing where that is not known.
+  // Whether nodes were moved for the sake of what lies between them (refine/refine.h) and stayed
+  // so; nothing where that is not known.
   std::optional<bool> refined;
   Precision precision = Precision::single;  // of the file that it was read from
 

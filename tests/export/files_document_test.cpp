@@ -68,7 +68,7 @@ TEST(FilesDocument, PythonExampleAgreesWithOurLookUp) {
                                       std::pair{testing::uneven_grid(), Storage::mirror_frame}}) {
     const Table table = testing::synthetic_table(grid, storage);
     write_table(table, folder / "t.h5");
-    EXPECT_LT(largest_difference(folder, table), rounding) << storage_name(storage);
+    EXPECT_LT(largest_difference(folder, table), rounding) << name_of(storage);
   }
 }
 

@@ -54,7 +54,7 @@ nlohmann::json expectation(const Table& table) {
   expected["attributes"] = {{"format", "ltc-table"},
                             {"format_version", 1},
                             {"brdf", table.brdf},
-                            {"storage", storage_name(table.storage)},
+                            {"storage", name_of(table.storage)},
                             {"alpha_min", table.grid.alpha_min},
                             {"seed", table.seed},
                             {"generator", table.generator},
@@ -65,7 +65,7 @@ nlohmann::json expectation(const Table& table) {
   for (std::size_t i = 0; i < Grid::axis_count; ++i) {
     const std::string name(table.grid.axis_names()[i]);
     expected["axes"][name] = table.grid.axis(i).nodes;
-    expected["warp"][name] = warp_name(table.grid.axis(i).warp);
+    expected["warp"][name] = name_of(table.grid.axis(i).warp);
   }
   expected["matrix"] = with_nulls(table.stored);
   expected["amplitude"] = with_nulls(table.amplitude);

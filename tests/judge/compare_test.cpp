@@ -65,8 +65,8 @@ TEST(Compare, ATableHasNoDistanceToItselfWhateverTheStorage) {
        {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame}) {
     const Table b = testing::synthetic_table(testing::uneven_grid(), storage);
     for (const EntryComparison& entry : compare(a, b)) {
-      EXPECT_LT(entry.matrix_difference, 5e-7) << storage_name(storage);
-      EXPECT_LT(entry.relative_distance(), 5e-6) << storage_name(storage);
+      EXPECT_LT(entry.matrix_difference, 5e-7) << name_of(storage);
+      EXPECT_LT(entry.relative_distance(), 5e-6) << name_of(storage);
       EXPECT_EQ(entry.amplitude_difference, 0);
     }
     for (const EntryComparison& entry : compare(b, b)) {

@@ -38,15 +38,15 @@ double largest(const Table& table, bool smoothest) {
 TEST(HalfPrecision, MovesTheSmoothestLobesByTheirSpreadUnlessStoredInTheMirrorsFrame) {
   // A direction is rounded by up to some 2e-4 radians; a lobe of alpha = 1e-4 is as wide.
   for (const Storage storage : {Storage::matrix, Storage::roughness_scaled}) {
-    EXPECT_GT(largest(table_of(storage), true), 0.3) << storage_name(storage);
-    EXPECT_LT(largest(table_of(storage), true), 5) << storage_name(storage);
+    EXPECT_GT(largest(table_of(storage), true), 0.3) << name_of(storage);
+    EXPECT_LT(largest(table_of(storage), true), 5) << name_of(storage);
   }
   // There the mirror direction is the exact axis z; what is left is 2^-11 of each column.
   EXPECT_LT(largest(table_of(Storage::mirror_frame), true), 2e-3);
   for (const Storage storage :
        {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame}) {
-    EXPECT_GT(largest(table_of(storage), false), 1e-5) << storage_name(storage);
-    EXPECT_LT(largest(table_of(storage), false), 5e-3) << storage_name(storage);
+    EXPECT_GT(largest(table_of(storage), false), 1e-5) << name_of(storage);
+    EXPECT_LT(largest(table_of(storage), false), 5e-3) << name_of(storage);
   }
 }
 

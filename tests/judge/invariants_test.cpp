@@ -69,7 +69,7 @@ TEST(Invariants, HoldForASoundTableOfAnyStorage) {
     const std::vector<InvariantResult> results = check(table);
     EXPECT_EQ(results.size(), 15u);
     for (const InvariantResult& result : results) {
-      EXPECT_TRUE(result.passed) << storage_name(storage) << ": " << result.message;
+      EXPECT_TRUE(result.passed) << name_of(storage) << ": " << result.message;
       EXPECT_TRUE(result.checked) << result.name;
       EXPECT_EQ(result.has_worst, result.name != "shapes and axes") << result.name;
       EXPECT_EQ(result.message, "");

@@ -218,7 +218,7 @@ TEST(ShaderInverse, TheDocumentedSnippetsTakeLightsToTheCosine) {
         // A vertex is rounded by 6e-8 of its direction, which is up to 2e-6 of these lobes' width:
         // over the light's size, both ways.
         EXPECT_NEAR(lit.by_snippet / lit.exact, 1, 1e-5 / size)
-            << test::describe(lobe) << " " << storage_name(storage);
+            << test::describe(lobe) << " " << name_of(storage);
       }
 }
 
@@ -227,7 +227,7 @@ TEST(ShaderInverse, TheDocumentedSnippetsKeepNarrowLobes) {
     const Lit lit = light(storage, {1e-4, 1e-4, 0.8, 0.4}, 1);
     // 6e-8 over 1e-4, some times over: the vertices' rounding, of which the inverse can say
     // nothing.
-    EXPECT_NEAR(lit.by_snippet / lit.exact, 1, 5e-3) << storage_name(storage);
+    EXPECT_NEAR(lit.by_snippet / lit.exact, 1, 5e-3) << name_of(storage);
     EXPECT_GT(std::abs(lit.by_snippet / lit.exact - 1), 1e-7);
   }
 }

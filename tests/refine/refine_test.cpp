@@ -242,7 +242,7 @@ TEST(QuerySystem, GradientIsThatOfItsValue) {
         (system.queries.evaluate(moved(1), {1}) - system.queries.evaluate(moved(-1), {1})) / 2;
     // The loss is binned and its gradient smoothed near zero residuals by 5 % of the loss: some per
     // cent on each query, less in the sum.
-    EXPECT_NEAR(difference / dot(gradient, step), 1, 0.1) << storage_name(storage);
+    EXPECT_NEAR(difference / dot(gradient, step), 1, 0.1) << name_of(storage);
     EXPECT_GT(value, 0);
   }
 }

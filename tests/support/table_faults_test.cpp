@@ -34,7 +34,7 @@ Table good_table(Storage storage) {
 
 TEST(TableFaults, AGoodTableHasNone) {
   for (const Storage storage : {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame})
-    EXPECT_EQ(faults_of(good_table(storage)), std::vector<std::string>{}) << storage_name(storage);
+    EXPECT_EQ(faults_of(good_table(storage)), std::vector<std::string>{}) << name_of(storage);
 }
 
 TEST(TableFaults, EveryFaultIsFoundAndNamed) {

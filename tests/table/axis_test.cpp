@@ -21,7 +21,7 @@ TEST(Axis, CoordinateUndoesValueForEveryWarp) {
     for (double u = 0; u <= 1; u += 1.0 / 64)
       // The square root turns an error of one unit in the last place of x, near x = 0, into its
       // root; away from the ends it is 1e-15.
-      EXPECT_NEAR(axis.coordinate(axis.value(u)), u, 2e-8) << warp_name(warp) << " u = " << u;
+      EXPECT_NEAR(axis.coordinate(axis.value(u)), u, 2e-8) << name_of(warp) << " u = " << u;
   }
 }
 
@@ -71,10 +71,10 @@ TEST(Axis, RefusesWhatIsNoAxis) {
 
 TEST(Axis, WarpNamesGoThereAndBackAndOthersAreRefused) {
   for (const Warp warp : all_warps)
-    EXPECT_EQ(warp_from_name(warp_name(warp)), warp);
-  EXPECT_EQ(warp_name(Warp::complement_sqrt), "complement-sqrt");
-  EXPECT_THROW(warp_from_name("cubic"), InputError);
-  EXPECT_THROW(warp_from_name(""), InputError);
+    EXPECT_EQ(value_named<Warp>(name_of(warp)), warp);
+  EXPECT_EQ(name_of(Warp::complement_sqrt), "complement-sqrt");
+  EXPECT_THROW(value_named<Warp>("cubic"), InputError);
+  EXPECT_THROW(value_named<Warp>(""), InputError);
 }
 
 }  // namespace

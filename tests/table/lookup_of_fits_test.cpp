@@ -40,8 +40,8 @@ void expect_found(const Case& c, const Table& table) {
   // Measured: up to 1.047, at (0.3, 0.09). The two fits see the lobe mirrored, with other samples
   // of the same lattices; the judge's 4096 add to it.
   const double ratio = c.judge.loss(found) / c.direct_loss;
-  EXPECT_LT(ratio, 1.08) << storage_name(table.storage) << " " << test::describe(c.query);
-  EXPECT_GT(ratio, 0.93) << storage_name(table.storage) << " " << test::describe(c.query);
+  EXPECT_LT(ratio, 1.08) << name_of(table.storage) << " " << test::describe(c.query);
+  EXPECT_GT(ratio, 0.93) << name_of(table.storage) << " " << test::describe(c.query);
 }
 
 // With any other unfolding it is another lobe.

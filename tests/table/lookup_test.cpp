@@ -176,7 +176,7 @@ TEST(LookUp, ExactAtNodesInEveryQuadrantAndBothRoughnessOrders) {
           bounded.alpha_y = std::max(query.alpha_y, grid.alpha_min);
           // Entries of order 2 were rounded to float.
           EXPECT_LT(lobe_difference(found.matrix, testing::first_order_matrix(bounded)), 2e-6)
-              << storage_name(storage) << " node " << i << " phi " << query.phi_radians;
+              << name_of(storage) << " node " << i << " phi " << query.phi_radians;
           EXPECT_NEAR(found.amplitude, testing::synthetic_amplitude(bounded), 2e-7);
           EXPECT_NEAR(found.fresnel, testing::synthetic_fresnel(bounded), 2e-7);
         }

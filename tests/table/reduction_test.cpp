@@ -54,7 +54,7 @@ TEST(Reduction, LookUpsOfAnIsotropicTableTurnWithTheAzimuth) {
             const LookUp found = look_up(table, {alpha, alpha, theta, phi});
             // Entries of order 1, rounded some times.
             EXPECT_LT((found.matrix - turned_by(phi - node, at_node.matrix)).norm(), 1e-14)
-                << storage_name(storage) << " phi " << degrees;
+                << name_of(storage) << " phi " << degrees;
             EXPECT_EQ(found.amplitude, at_node.amplitude);
             EXPECT_EQ(found.fresnel, at_node.fresnel);
           }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "support/refusal.h"
 #include "table/synthetic.h"
 
 namespace ltc {
@@ -132,9 +133,11 @@ TEST(Storage, SymmetryZerosOfEquation16HoldForStoredToo) {
 
 TEST(Storage, NamesGoThereAndBackAndOthersAreRefused) {
   for (const Storage storage : {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame})
-    EXPECT_EQ(storage_from_name(storage_name(storage)), storage);
-  EXPECT_EQ(storage_name(Storage::mirror_frame), "mirror-frame");
-  EXPECT_THROW(storage_from_name("inverse"), InputError);
+    EXPECT_EQ(value_named<Storage>(name_of(storage)), storage);
+  EXPECT_EQ(name_of(Storage::mirror_frame), "mirror-frame");
+  EXPECT_EQ(test::message_of<InputError>([] { value_named<Storage>("inverse"); }),
+            "storage \"inverse\" is unknown; allowed: matrix, roughness-scaled, mirror-frame");
+  EXPECT_THROW(name_of(static_cast<Storage>(3)), InputError);
 }
 
 TEST(Table, EmptyIsAllNanAndSkipped) {
