@@ -183,16 +183,6 @@ Statistics ratios_at(const FrontierTask& task, const std::vector<EntryComparison
   return summary;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty())
-    return no_value;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1)
-    return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
-
 }  // namespace
 
 std::vector<std::size_t> fitted_entries(const Grid& grid) {
@@ -262,10 +252,8 @@ std::vector<SettingSummary> summarize(const FrontierTask& task, const FrontierRu
       summary.judged += measurement.judged;
       summary.failures += measurement.judged && !std::isfinite(measurement.loss);
     }
-    summary.median_seconds = median(seconds);
-    summary.mean_seconds = std::accumulate(seconds.begin(), seconds.end(), 0.0) /
-                           static_cast<double>(std::max<std::size_t>(seconds.size(), 1));
-    summary.table_seconds = summary.mean_seconds * fitted;
+    summary.seconds = statistics_of(seconds);
+    summary.table_seconds = summary.seconds.mean * fitted;
     summary.ratios = ratios_at(task, comparisons);
     summary.rough_ratios = ratios_at(task, comparisons, rough);
     summaries.push_back(summary);

@@ -64,9 +64,9 @@ constexpr EnumNames<ErrorSource, 4> enum_names(ErrorSource) {
 }
 
 struct SettingSummary {
-  double median_seconds = 0, mean_seconds = 0;  // an entry
-  double table_seconds = 0;                     // the mean times all fitted entries of the grid
-  bool extrapolated = false;                    // from the first steps
+  Statistics seconds;         // an entry
+  double table_seconds = 0;   // the mean times all fitted entries of the grid
+  bool extrapolated = false;  // from the first steps
   ErrorSource error_source = ErrorSource::own_fits;
   Statistics ratios;  // held-out loss over the reference's, of the judged and finite
   // Of these, the lobes above alpha_min. Those at it are as good as mirrors, and a fit that misses

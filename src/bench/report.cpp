@@ -26,8 +26,8 @@ Json json_of(const Grid& grid, const BenchSetting& setting, const SettingSummary
   const auto value = [&](double ratio) { return any ? Json(ratio) : Json(); };
   return {{"name", setting.name},
           {"summary", setting.summary},
-          {"milliseconds_median", 1e3 * summary.median_seconds},
-          {"milliseconds_mean", 1e3 * summary.mean_seconds},
+          {"milliseconds_median", 1e3 * summary.seconds.p50},
+          {"milliseconds_mean", 1e3 * summary.seconds.mean},
           {"table_seconds_one_core", summary.table_seconds},
           {"time_extrapolated", summary.extrapolated},
           {"error_of", name_of(summary.error_source)},

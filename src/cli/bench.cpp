@@ -60,7 +60,7 @@ std::string error_text(const SettingSummary& summary) {
 
 std::string row_text(const BenchSetting& setting, const SettingSummary& summary) {
   return fmt::format("{:<18} {:>11.3f} {:>11.3f} {:>13} {}\n", setting.name,
-                     1e3 * summary.median_seconds, 1e3 * summary.mean_seconds,
+                     1e3 * summary.seconds.p50, 1e3 * summary.seconds.mean,
                      (summary.extrapolated ? "~" : "") + duration_text(summary.table_seconds),
                      error_text(summary));
 }
@@ -88,7 +88,7 @@ std::string comparison_text(const FrontierReport& report) {
   if (!fast || !slow)
     return "";
   return fmt::format("default is {:.0f} times faster per entry than sgd-published\n",
-                     slow->mean_seconds / fast->mean_seconds);
+                     slow->seconds.mean / fast->seconds.mean);
 }
 
 std::string report_text(const FrontierReport& report) {

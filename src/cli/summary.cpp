@@ -35,10 +35,10 @@ std::string entries_text(const TableSummary& summary) {
 }
 
 std::string loss_text(const TableSummary& summary) {
-  if (summary.judged == 0)
+  if (summary.losses.count == 0)
     return "loss     no entry has one\n";
   return fmt::format("loss     mean {:.4e}, p95 {:.4e}, largest {:.4e} (sliced Wasserstein)\n",
-                     summary.mean_loss, summary.p95_loss, summary.largest_loss);
+                     summary.losses.mean, summary.losses.p95, summary.losses.largest);
 }
 
 // What a scene, a table to extend and a checkpoint have spared; nothing where there was none.

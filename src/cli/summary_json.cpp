@@ -23,10 +23,11 @@ Json entries_json(const TableSummary& summary) {
 }
 
 Json loss_json(const TableSummary& summary) {
-  if (summary.judged == 0)
+  if (summary.losses.count == 0)
     return nullptr;
-  return {
-      {"mean", summary.mean_loss}, {"p95", summary.p95_loss}, {"largest", summary.largest_loss}};
+  return {{"mean", summary.losses.mean},
+          {"p95", summary.losses.p95},
+          {"largest", summary.losses.largest}};
 }
 
 Json refine_json(const GenerateReport& made) {

@@ -9,16 +9,13 @@
 #include <nlopt.hpp>
 
 #include "fit/starting_points.h"
-#include "fit/workspace.h"
 
 namespace ltc {
 namespace {
 
 constexpr double first_simplex = 0.1;
 
-// The sets that a result's sliced-Wasserstein loss is measured with: half the samples of the
-// default fit, along as many directions.
-constexpr std::size_t loss_samples = 2048, loss_directions = 32, loss_target_samples = 4096;
+// Of the meter of a result's loss: twice those of a table's nodes.
 constexpr std::size_t loss_bins = 128;
 
 // The free entries of P as a vector, and back.
@@ -122,28 +119,13 @@ L3NelderMeadSolver::L3NelderMeadSolver(const L3Settings& settings)
     : settings_(settings),
       cosines_(make_cosine_set(static_cast<std::size_t>(settings.samples))),
       lattice_(make_target_lattice(static_cast<std::size_t>(settings.samples), 0.3)),
-      loss_cosines_(make_cosine_set(loss_samples)),
-      loss_lattice_(make_target_lattice(loss_target_samples, 0.3)) {
-  loss_directions_ = in_float(fibonacci_directions(loss_directions));
-}
-
-double L3NelderMeadSolver::sliced_wasserstein_loss(const LobeFrame& frame,
-                                                   const Eigen::Matrix3d& frame_matrix,
-                                                   FitWorkspace& workspace) const {
-  TargetQuantiles& quantiles = workspace.quantiles;
-  quantiles.build(workspace.target, loss_directions_, loss_bins, workspace.model.xi,
-                  workspace.model.bins);
-  ModelValue value;
-  evaluate_model(frame, frame_matrix, loss_cosines_, quantiles, 1, quantiles.spread(),
-                 workspace.model, value);
-  return value.loss;
-}
+      meter_(loss_bins) {}
 
 FitResult L3NelderMeadSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                                   std::vector<FitStep>* trace) const {
   const LobeFrame frame(request.lobe);
   const FreeEntries free = free_entries(request.lobe);
-  sample_weighted_target(frame, loss_lattice_, workspace.target);
+  meter_.set_target(frame, workspace);
   const Eigen::Matrix3d start =
       request.starts.empty() ? start_of_kind(settings_.start, frame, workspace.target, request.seed)
                              : admissible(frame.from_matrix(request.starts.front()), free);
@@ -156,9 +138,8 @@ FitResult L3NelderMeadSolver::fit(const FitRequest& request, FitWorkspace& works
   result.steps = search.evaluations;
   result.outcome = search.converged ? FitOutcome::converged : FitOutcome::step_limit;
   result.matrix = frame.to_matrix(search.frame_matrix);
-  result.loss = std::isfinite(search.error)
-                    ? sliced_wasserstein_loss(frame, search.frame_matrix, workspace)
-                    : std::numeric_limits<double>::quiet_NaN();
+  result.loss = std::isfinite(search.error) ? meter_.loss(frame, search.frame_matrix, workspace)
+                                            : std::numeric_limits<double>::quiet_NaN();
   if (!std::isfinite(result.loss) || !(result.matrix.determinant() > 0)) {
     result.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
     result.loss = std::numeric_limits<double>::quiet_NaN();

@@ -9,7 +9,7 @@
 
 #include "brdf/albedo.h"
 #include "fit/l3_error.h"
-#include "fit/quantile_model.h"
+#include "fit/loss_meter.h"
 #include "fit/sample_sets.h"
 #include "fit/settings.h"
 #include "fit/solver.h"
@@ -43,17 +43,11 @@ class L3NelderMeadSolver final : public Solver {
                 std::vector<FitStep>* trace) const override;
 
  private:
-  double sliced_wasserstein_loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
-                                 FitWorkspace& workspace) const;
-
   L3Settings settings_;
   CosineSet cosines_;
   TargetLattice lattice_;
   AlbedoRule albedo_rule_;
-  // What the result is judged with.
-  CosineSet loss_cosines_;
-  TargetLattice loss_lattice_;
-  std::vector<Eigen::Vector3f> loss_directions_;
+  LossMeter meter_;  // of the result
 };
 
 }  // namespace ltc

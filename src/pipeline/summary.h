@@ -7,16 +7,14 @@
 #include <cstddef>
 #include <vector>
 
+#include "judge/statistics.h"
 #include "table/table.h"
 
 namespace ltc {
 
 struct TableSummary {
   std::array<std::size_t, 5> entries_by_status{};  // indexed by Status
-  std::size_t judged = 0;  // entries with a finite loss; the rest count nowhere below
-  double mean_loss = 0;    // sliced-Wasserstein; all 0 if nothing was judged
-  double p95_loss = 0;     // the least loss that 95 % of the judged do not exceed
-  double largest_loss = 0;
+  Statistics losses;  // sliced-Wasserstein; of the entries with a finite one
   // Flat indices by falling loss, at most as many as asked for, each lobe once.
   std::vector<std::size_t> worst;
 };

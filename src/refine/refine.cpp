@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "fit/loss_meter.h"
 #include "refine/query_system.h"
 #include "refine/refine_step.h"
 
@@ -122,31 +123,19 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
 std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Eigen::Matrix3d>& stored,
                                 const RunContext& run) {
   const Grid& grid = nodes.grid;
-  const CosineSet cosines = make_cosine_set(2048);
-  const TargetLattice lattice = make_target_lattice(4096, 0.3);
-  const std::vector<Eigen::Vector3f> directions = in_float(fibonacci_directions(32));
   constexpr std::size_t bins = 64;
-  struct State {
-    TargetSamples target;
-    TargetQuantiles quantiles;
-    ModelWorkspace workspace;
-    ModelValue value;
-  };
+  const LossMeter meter(bins);
   std::vector<double> losses(grid.size(), std::numeric_limits<double>::quiet_NaN());
-  parallel_for_each<State>(
-      "node losses", grid.size(), run, [] { return State(); },
-      [&](std::size_t flat, State& state) {
+  parallel_for_each<FitWorkspace>(
+      "node losses", grid.size(), run, [] { return FitWorkspace(); },
+      [&](std::size_t flat, FitWorkspace& workspace) {
         if (!nodes.has_values[flat])
           return;
         const LobeFrame frame(grid.lobe(flat));
-        sample_weighted_target(frame, lattice, state.target);
-        state.quantiles.build(state.target, directions, bins, state.workspace.xi,
-                              state.workspace.bins);
+        meter.set_target(frame, workspace);
         const Eigen::Matrix3d p =
             frame.from_matrix(matrix_from_stored(nodes.storage, stored[flat], frame.lobe));
-        evaluate_model(frame, p / p.col(2).norm(), cosines, state.quantiles, 1,
-                       state.quantiles.spread(), state.workspace, state.value);
-        losses[flat] = state.value.loss;
+        losses[flat] = meter.loss(frame, p / p.col(2).norm(), workspace);
       });
   return losses;
 }

@@ -45,9 +45,8 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
 std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& has_values,
                                     const RefineSettings& settings);
 
-// The sliced-Wasserstein loss of every node's own lobe at `stored`, as the solvers measure it (2048
-// samples, 32 directions); NaN where a node has no values.
-// Throws Interrupted.
+// The sliced-Wasserstein loss of every node's own lobe at `stored` (fit/loss_meter.h); NaN where a
+// node has no values. Throws Interrupted.
 std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Eigen::Matrix3d>& stored,
                                 const RunContext& run);
 

@@ -94,8 +94,8 @@ TEST(Frontier, SummarizesTimesAndRatios) {
   const FrontierRun run = made_up({{1, 2, 3, 4}, {1.1, 2.4, 3.9, nan}}, {1, 2, 3, 4});
   const std::vector<SettingSummary> summaries = summarize(task, run);
   ASSERT_EQ(summaries.size(), 2u);
-  EXPECT_DOUBLE_EQ(summaries[0].median_seconds, 6.5);  // of 1, 4, 9, 16
-  EXPECT_DOUBLE_EQ(summaries[0].mean_seconds, 7.5);
+  EXPECT_DOUBLE_EQ(summaries[0].seconds.p50, 4);  // of 1, 4, 9, 16
+  EXPECT_DOUBLE_EQ(summaries[0].seconds.mean, 7.5);
   EXPECT_DOUBLE_EQ(summaries[0].table_seconds,
                    7.5 * static_cast<double>(fitted_entries(task.grid).size()));
   EXPECT_DOUBLE_EQ(summaries[0].ratios.mean, 1);

@@ -14,12 +14,12 @@ Table small_table() {
   return Table::empty(Grid::paper(2), Storage::matrix);
 }
 
-TEST(TableSummary, OfNothingIsZero) {
+TEST(TableSummary, OfNothingIsNoNumber) {
   const TableSummary summary = summarize(small_table(), 5);
   EXPECT_EQ(summary.entries_by_status, (std::array<std::size_t, 5>{16, 0, 0, 0, 0}));
-  EXPECT_EQ(summary.judged, 0u);
-  EXPECT_EQ(summary.mean_loss, 0);
-  EXPECT_EQ(summary.largest_loss, 0);
+  EXPECT_EQ(summary.losses.count, 0u);
+  EXPECT_TRUE(std::isnan(summary.losses.mean));
+  EXPECT_TRUE(std::isnan(summary.losses.largest));
   EXPECT_TRUE(summary.worst.empty());
 }
 
@@ -36,9 +36,9 @@ TEST(TableSummary, IgnoresEntriesWithoutALoss) {
   set(13, Status::failed, std::nanf(""));
   const TableSummary summary = summarize(table, 3);
   EXPECT_EQ(summary.entries_by_status, (std::array<std::size_t, 5>{11, 2, 1, 1, 1}));
-  EXPECT_EQ(summary.judged, 4u);
-  EXPECT_EQ(summary.mean_loss, 0.25);  // exact: sums of powers of two
-  EXPECT_EQ(summary.largest_loss, 0.5);
+  EXPECT_EQ(summary.losses.count, 4u);
+  EXPECT_EQ(summary.losses.mean, 0.25);  // exact: sums of powers of two
+  EXPECT_EQ(summary.losses.largest, 0.5);
   EXPECT_EQ(summary.worst, (std::vector<std::size_t>{5, 3, 12}));
 }
 
@@ -55,9 +55,9 @@ TEST(TableSummary, PercentileLeavesFivePercentAbove) {
   for (std::size_t i = 0; i < 100; ++i)
     table.sw_loss[i * 6] = static_cast<float>(i + 1);
   const TableSummary summary = summarize(table, 1);
-  EXPECT_EQ(summary.judged, 100u);
-  EXPECT_EQ(summary.p95_loss, 95);  // 96 … 100 are above
-  EXPECT_EQ(summary.mean_loss, 50.5);
+  EXPECT_EQ(summary.losses.count, 100u);
+  EXPECT_EQ(summary.losses.p95, 95);  // 96 … 100 are above
+  EXPECT_EQ(summary.losses.mean, 50.5);
 }
 
 }  // namespace

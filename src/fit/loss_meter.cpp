@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "fit/loss_meter.h"
+
+namespace ltc {
+
+LossMeter::LossMeter(std::size_t bins)
+    : bins_(bins),
+      cosines_(make_cosine_set(2048)),
+      lattice_(make_target_lattice(4096, 0.3)),
+      directions_(in_float(fibonacci_directions(32))) {}
+
+void LossMeter::set_target(const LobeFrame& frame, FitWorkspace& workspace) const {
+  sample_weighted_target(frame, lattice_, workspace.target);
+}
+
+double LossMeter::loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
+                       FitWorkspace& workspace) const {
+  TargetQuantiles& quantiles = workspace.quantiles;
+  quantiles.build(workspace.target, directions_, bins_, workspace.model.xi, workspace.model.bins);
+  ModelValue value;
+  evaluate_model(frame, frame_matrix, cosines_, quantiles, 1, quantiles.spread(), workspace.model,
+                 value);
+  return value.loss;
+}
+
+}  // namespace ltc
