@@ -5,10 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
-#include "picture/scale.h"
 #include "picture/text.h"
 #include "report/page_style.h"
 
@@ -29,62 +27,6 @@ std::string base64(std::string_view bytes) {
       text += k <= used ? digits[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
-}
-
-// Where a bar chart's things stand, in its own units.
-struct BarLayout {
-  double width = 520, height = 260;
-  double left = 8, right = 512, top = 68, bottom = 224;
-  double largest = 1;
-  std::size_t groups = 1, series = 1;
-
-  double group_width() const { return (right - left) / static_cast<double>(groups); }
-  double bar_width() const {
-    return std::min(70.0, 0.84 * group_width() / static_cast<double>(series));
-  }
-  double bar_left(std::size_t group, std::size_t bar) const {
-    const double middle = left + (static_cast<double>(group) + 0.5) * group_width();
-    return middle + (static_cast<double>(bar) - 0.5 * static_cast<double>(series)) * bar_width();
-  }
-  double bar_height(double value) const { return (bottom - top) * value / largest; }
-};
-
-BarLayout layout_of(const BarChart& chart) {
-  BarLayout layout;
-  layout.groups = std::max<std::size_t>(1, chart.groups.size());
-  layout.series = std::max<std::size_t>(1, chart.series.size());
-  layout.largest = 0;
-  for (const BarChart::Series& series : chart.series)
-    for (const double value : series.values)
-      if (std::isfinite(value))
-        layout.largest = std::max(layout.largest, value);
-  if (layout.largest == 0)
-    layout.largest = 1;
-  return layout;
-}
-
-std::string legend(const BarChart& chart) {
-  std::string svg;
-  double x = 8;
-  for (std::size_t i = 0; i < chart.series.size(); ++i) {
-    svg += fmt::format(
-        "<rect class=\"series{}\" x=\"{:.1f}\" y=\"29\" width=\"11\" height=\"11\" rx=\"2\"/>"
-        "<text class=\"faint\" x=\"{:.1f}\" y=\"39\">{}</text>\n",
-        i, x, x + 17, escaped(chart.series[i].name));
-    x += 36 + 7.2 * static_cast<double>(chart.series[i].name.size());
-  }
-  return svg;
-}
-
-std::string bar(const BarLayout& layout, std::size_t group, std::size_t series, double value,
-                int decimals) {
-  const double height = layout.bar_height(value), left = layout.bar_left(group, series);
-  const double width = layout.bar_width();
-  return fmt::format(
-      "<rect class=\"series{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>"
-      "<text class=\"value\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{:.{}f}</text>\n",
-      series, left + 1, layout.bottom - height, width - 2, height, left + width / 2,
-      layout.bottom - height - 5, value, decimals);
 }
 
 }  // namespace
@@ -156,29 +98,6 @@ std::string table(const Table& table) {
   for (const std::vector<std::string>& cells : table.rows)
     html += row(cells, "td", true);
   return html + "</tbody></table></div>\n";
-}
-
-std::string bar_chart(const BarChart& chart) {
-  const BarLayout layout = layout_of(chart);
-  std::string svg = fmt::format(
-      "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
-      "xmlns=\"http://www.w3.org/2000/svg\"><title>{}</title>\n"
-      "<text class=\"title\" x=\"8\" y=\"17\">{}</text>\n",
-      layout.width, layout.height, escaped(chart.title), escaped(chart.title));
-  svg += legend(chart);
-  for (std::size_t series = 0; series < chart.series.size(); ++series)
-    for (std::size_t group = 0; group < chart.groups.size(); ++group)
-      if (const double value = chart.series[series].values.at(group); std::isfinite(value))
-        svg += bar(layout, group, series, value, chart.decimals);
-  for (std::size_t group = 0; group < chart.groups.size(); ++group)
-    svg += fmt::format(
-        "<text class=\"label\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-        layout.left + (static_cast<double>(group) + 0.5) * layout.group_width(), layout.bottom + 20,
-        escaped(chart.groups[group]));
-  svg += fmt::format(
-      "<line class=\"axis\" x1=\"{0:.1f}\" y1=\"{2:.1f}\" x2=\"{1:.1f}\" y2=\"{2:.1f}\"/>\n",
-      layout.left, layout.right, layout.bottom);
-  return svg + "</svg>\n";
 }
 
 std::string page(std::string_view title, std::string_view body) {

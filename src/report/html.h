@@ -32,19 +32,6 @@ struct Table {
 };
 std::string table(const Table& table);
 
-// Bars from zero, one a series in each group, with their values written on them. NaN has no bar.
-struct BarChart {
-  std::string title;                // plain text, as all below
-  std::vector<std::string> groups;  // below the bars
-  struct Series {
-    std::string name;
-    std::vector<double> values;  // one a group
-  };
-  std::vector<Series> series;  // at most two
-  int decimals = 3;
-};
-std::string bar_chart(const BarChart& chart);
-
 // The whole page; `body` is HTML.
 std::string page(std::string_view title, std::string_view body);
 

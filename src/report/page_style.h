@@ -13,13 +13,13 @@ inline constexpr std::string_view page_style = R"css(
 :root {
   --ground: #ffffff; --card: #f5f6f7; --line: #dcdfe3; --ink: #22252a; --faint: #5f6670;
   --good: #00703c; --good-ground: #e2f3ea; --bad: #b3261e; --bad-ground: #fbe6e4;
-  --series0: #0072b2; --series1: #b9bcc0; --code: #eceef0;
+  --code: #eceef0;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --ground: #16181c; --card: #1f2227; --line: #383d45; --ink: #e6e8eb; --faint: #a2a9b3;
     --good: #6fd39b; --good-ground: #163526; --bad: #ff9d94; --bad-ground: #46201d;
-    --series0: #56b4e9; --series1: #6d737c; --code: #2a2e35;
+    --code: #2a2e35;
   }
 }
 * { box-sizing: border-box; }
@@ -44,18 +44,6 @@ p { margin: 6px 0 12px; max-width: 78ch; }
   padding: 14px 16px; }
 .tile b { display: block; font-size: 30px; line-height: 1.25; font-variant-numeric: tabular-nums; }
 .tile span { display: block; font-size: 14px; color: var(--faint); }
-.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(420px, 100%), 1fr));
-  gap: 14px; margin: 14px 0; }
-.chart { width: 100%; height: auto; background: var(--card); border: 1px solid var(--line);
-  border-radius: 10px; padding: 10px; }
-.chart text { fill: var(--ink); font-size: 13px; }
-.chart text.title { font-weight: 600; font-size: 14px; }
-.chart text.faint { fill: var(--faint); }
-.chart text.value { text-anchor: middle; font-size: 12px; }
-.chart text.label { text-anchor: middle; fill: var(--faint); }
-.chart .series0 { fill: var(--series0); }
-.chart .series1 { fill: var(--series1); }
-.chart .axis { stroke: var(--faint); }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; min-width: 760px; font-size: 14.5px;
   margin: 8px 0 16px; }

@@ -172,24 +172,10 @@ std::string figures(const QualityReport& quality) {
              quality.area_light_noise);
 }
 
-std::string charts(const QualityReport& quality) {
-  std::string html = "<div class=\"charts\">\n";
-  for (const Bands& bands : quality.bands) {
-    html::BarChart losses{
-        "Loss between nodes by " + bands.parameter, {}, {{"table", {}}, {"floor", {}}}};
-    html::BarChart light{
-        "Error under area lights by " + bands.parameter, {}, {{"table", {}}, {"floor", {}}}, 4};
-    for (const Band& band : bands.bands) {
-      losses.groups.push_back(band_text(bands, band));
-      losses.series[0].values.push_back(band.relative_loss);
-      losses.series[1].values.push_back(band.floor_loss);
-      light.groups.push_back(losses.groups.back());
-      light.series[0].values.push_back(band.area_light_error);
-      light.series[1].values.push_back(band.floor_area_light_error);
-    }
-    if (!bands.bands.empty())
-      html += html::bar_chart(losses) + html::bar_chart(light);
-  }
+std::string pairs_html(const std::vector<NamedPicture>& pictures) {
+  std::string html = "<div class=\"pair\">\n";
+  for (const NamedPicture& picture : pictures)
+    html += html::figure(picture.canvas, picture.title, picture.caption);
   return html + "</div>\n";
 }
 
@@ -205,13 +191,6 @@ std::string worst_queries(const Validation& validation) {
          fmt::format("<code>{}</code>",
                      escaped(query_command(validation.file, quality.floors[i].lobe)))});
   return "<h2>Furthest above the floor</h2>\n" + html::table(table);
-}
-
-std::string pictures_html(const std::vector<NamedPicture>& pictures) {
-  std::string html;
-  for (const NamedPicture& picture : pictures)
-    html += html::figure(picture.canvas, picture.title, picture.caption);
-  return html;
 }
 
 // Line by line: a line break is no character that a text may hold.
@@ -262,7 +241,7 @@ std::string validation_page(const Validation& validation, const PageSettings& se
                             const RunContext& run) {
   const QualityReport& quality = validation.quality.value();
   std::string body = header(validation) + tiles(validation) + checks(validation) +
-                     figures(quality) + charts(quality) + worst_queries(validation);
+                     figures(quality) + pairs_html(band_pictures(quality)) + worst_queries(validation);
   body += pictures_html(lobe_pictures(validation, settings.lobes, run));
   body += "<h2>The whole table</h2>\n<div class=\"pair\">\n" +
           pictures_html(table_pictures(validation)) + "</div>\n";

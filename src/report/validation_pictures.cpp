@@ -4,15 +4,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "core/parallel.h"
 #include "core/shell_quoted.h"
+#include "judge/matrix_invariants.h"
 #include "render/missing_albedo.h"
 #include "render/sphere_picture.h"
 #include "report/lobe_picture.h"
@@ -28,6 +27,7 @@ using picture::ScaleKind;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t lobe_side = 200;  // pixels that a lobe's density is computed for
 constexpr int lobe_width = 1400;        // of its picture
+constexpr int chart_width = 1040, chart_height = 600;
 
 std::vector<double> of_entries(const Table& table, auto&& value) {
   std::vector<double> values(table.grid.size(), nan);
@@ -35,13 +35,6 @@ std::vector<double> of_entries(const Table& table, auto&& value) {
     if (has_values(table.status[flat]))
       values[flat] = value(flat);
   return values;
-}
-
-double condition_number(const Eigen::Matrix3d& matrix) {
-  if (!matrix.allFinite())
-    return nan;
-  const Eigen::Vector3d values = matrix.jacobiSvd().singularValues();
-  return values[0] / values[2];
 }
 
 bool any_number(const std::vector<double>& values) {
@@ -63,12 +56,6 @@ NamedPicture map_of(const Validation& validation, const std::vector<double>& val
     map.marks = {mark_of(grid, figures.largest_index)};
   return {title, caption + " (" + lobe_text(grid, figures.largest_index) + ").",
           picture::render(map)};
-}
-
-std::string lobe_words(const GgxLobe& lobe) {
-  constexpr double degrees = 180 / std::numbers::pi;
-  return fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", lobe.alpha_x,
-                     lobe.alpha_y, lobe.theta_radians * degrees, lobe.phi_radians * degrees);
 }
 
 struct LobeToDraw {
@@ -117,7 +104,52 @@ std::vector<LobeToDraw> failing_entries(const Validation& validation, std::size_
   return lobes;
 }
 
+// A mean over each band, as a level line across it with its value on it.
+picture::Series levels(const char* name, const Bands& bands, double Band::*mean, int decimals,
+                       picture::Color color, std::vector<double> dashes = {}) {
+  picture::Series series{name, {}, color, picture::Marker::none, 4, std::move(dashes)};
+  const double end = bands.unit.empty() ? 1 : 90;  // of a share, of an angle
+  for (const Band& band : bands.bands) {
+    const double last = std::min(band.last, std::max(end, band.first));
+    series.points.push_back({band.first, band.*mean});
+    series.points.push_back(
+        {(band.first + last) / 2, band.*mean, fmt::format("{:.{}f}", band.*mean, decimals)});
+    series.points.push_back({last, band.*mean});
+  }
+  return series;
+}
+
+NamedPicture band_picture(const char* what, const Bands& bands, double Band::*table,
+                          double Band::*floor, int decimals) {
+  const std::string title = fmt::format("{} by {}", what, bands.parameter);
+  picture::Chart chart;
+  chart.words.title = title;
+  chart.x.title =
+      bands.parameter + (bands.unit.empty() ? "" : fmt::format(" ({})", bands.unit));
+  chart.series = {levels("floor", bands, floor, decimals, picture::faint_ink, {12, 8}),
+                  levels("table", bands, table, decimals, picture::series_color(0))};
+  double largest = 0;
+  for (const picture::Series& series : chart.series)
+    for (const picture::ChartPoint& point : series.points)
+      if (std::isfinite(point.y))
+        largest = std::max(largest, point.y);
+  chart.y.scale = picture::Scale::linear(0, largest > 0 ? 1.15 * largest : 1);
+  return {title, "", picture::render(chart, chart_width, chart_height)};
+}
+
 }  // namespace
+
+std::vector<NamedPicture> band_pictures(const QualityReport& quality) {
+  std::vector<NamedPicture> pictures;
+  for (const Bands& bands : quality.bands)
+    if (!bands.bands.empty()) {
+      pictures.push_back(band_picture("Loss between nodes", bands, &Band::relative_loss,
+                                      &Band::floor_loss, 3));
+      pictures.push_back(band_picture("Error under area lights", bands, &Band::area_light_error,
+                                      &Band::floor_area_light_error, 4));
+    }
+  return pictures;
+}
 
 std::vector<NamedPicture> table_pictures(const Validation& validation) {
   const Table& table = validation.table;
@@ -146,7 +178,7 @@ std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_
   std::vector<std::optional<picture::Canvas>> canvases(to_draw.size());
   parallel_for_each("draw lobes", to_draw.size(), run, [&](std::size_t i) {
     const LobeToDraw& lobe = to_draw[i];
-    picture::Words words{lobe.title, lobe_words(lobe.lobe), {lobe.words}};
+    picture::Words words{lobe.title, lobe_caption(lobe.lobe), {lobe.words}};
     canvases[i] = render_lobe(lobe_panels(lobe.lobe, lobe.matrix, words, lobe_side),
                               picture::Chart{}, lobe_width);
   });

@@ -22,6 +22,9 @@ struct NamedPicture {
 // table has no values of are left out.
 std::vector<NamedPicture> table_pictures(const Validation& validation);
 
+// Mean loss and error under area lights over each parameter of the queries, beside their floors.
+std::vector<NamedPicture> band_pictures(const QualityReport& quality);
+
 // GGX, LTC and difference of the worst queries as the table looks them up, then of entries that
 // break an invariant.
 std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_t lobes,

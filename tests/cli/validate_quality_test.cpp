@@ -92,8 +92,8 @@ TEST_F(ValidateQuality, ThePageIsOneWellFormedFile) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("wrote new/page/index.html\n"), std::string::npos) << result.out;
   const std::string page = read_file(folder / "new/page/index.html");
-  for (const char* words : {"✓ Sound", "<svg", "data:image/png;base64,", "Condition number of M",
-                            "Spheres under a rectangular light", "query"})
+  for (const char* words : {"✓ Sound", "data:image/png;base64,", "Loss between nodes by theta",
+                            "Condition number of M", "Spheres under a rectangular light", "query"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   // Nothing comes from elsewhere.
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);

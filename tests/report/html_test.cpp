@@ -4,17 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace ltc::html {
 namespace {
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
-    ++found;
-  return found;
-}
 
 TEST(Html, TextIsEscaped) {
   EXPECT_EQ(escaped("a<b & \"c\">'d' α"), "a&lt;b &amp; &quot;c&quot;&gt;&#39;d&#39; α");
@@ -38,19 +29,6 @@ TEST(Html, NumbersOfATableStandToTheRight) {
                       "<td data-head=\"note\">x</td>"),
             std::string::npos);
   EXPECT_NE(html.find("<th class=\"number\">value</th>"), std::string::npos);
-}
-
-TEST(Html, BarsAreInProportionAndNothingIsNoBar) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::string svg =
-      bar_chart({"losses", {"a", "b"}, {{"table", {0.2, 0.1}}, {"floor", {0.05, nan}}}, 2});
-  // The plot is 156 units high: the largest bar fills it.
-  EXPECT_EQ(count(svg, " height=\"156.0\""), 1u) << svg;
-  EXPECT_EQ(count(svg, " height=\"78.0\""), 1u);
-  EXPECT_EQ(count(svg, " height=\"39.0\""), 1u);
-  EXPECT_EQ(count(svg, "class=\"value\""), 3u);
-  EXPECT_NE(svg.find(">0.05</text>"), std::string::npos);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
 TEST(Html, APageStandsByItself) {
