@@ -12,8 +12,7 @@ namespace ltc {
 enum class Handedness {
   // The best R of all, which is what equation (12) asks for. With det(M) < 0 it is nearly always a
   // reflection, so that the result's determinant is positive; not where a lobe is so poor a fit
-  // that
-  // both hands are about as good (one of the 4096 published matrices).
+  // that both hands are about as good (one of the 4096 published matrices).
   any,
   // The best R of those that make the determinant of M R positive, so that no cell of a table
   // interpolates through a singular matrix.

@@ -31,8 +31,7 @@ std::string frontier_json(const FrontierReport& report);
 std::string frontier_csv(const FrontierReport& report);
 
 // Time for the whole table on one core against mean error of the lobes above alpha_min, both
-// logarithmic. A setting without an
-// error, or with none at all, has no point.
+// logarithmic. A setting without an error, or with none at all, has no point.
 picture::Chart frontier_chart(const FrontierReport& report);
 
 }  // namespace ltc

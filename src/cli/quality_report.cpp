@@ -120,9 +120,8 @@ Json json_of(const Bands& bands) {
 }
 
 Json query_json(const std::string& file, const QueryFloor& floor, const QueryQuality& query) {
-  constexpr const char* states[] = {"judged", "outside", "missing"};
   Json json = lobe_json(floor.lobe);
-  json["state"] = states[static_cast<std::size_t>(query.state)];
+  json["state"] = name_of(query.state);
   json["loss"] = query.relative_loss;
   json["floor_loss"] = floor.relative_loss;
   json["area_light_error"] = query.area_light.mean_absolute;

@@ -27,8 +27,8 @@ class FileSet {
 
   // Calls `write` with the name of a temporary file in the same folder as `path` and flushes what
   // it wrote to the disk. Throws IoError on what the system refuses and for a `path` that is a
-  // device, a pipe or a folder; lets `write`'s own
-  // exceptions through; the temporary file is then gone.
+  // device, a pipe or a folder; lets `write`'s own exceptions through; the temporary file is then
+  // gone.
   void add(const std::filesystem::path& path,
            const std::function<void(const std::filesystem::path&)>& write);
 

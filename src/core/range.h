@@ -9,6 +9,9 @@
 
 namespace ltc {
 
+// What a setting takes for a limit that excludes nothing finite.
+inline constexpr double no_limit = 1e300;
+
 // [least, most], without `least` itself if `above_least`, likewise `below_most`.
 struct Range {
   double least, most;

@@ -32,7 +32,7 @@ struct Measurement {
   std::string name;
   double limit = 0;
   bool at_most = true;
-  double largest = InvariantLimits::none;  // a limit so large excludes nothing
+  double largest = no_limit;  // a limit so large excludes nothing
   std::vector<double> values;
   std::vector<bool> judged;
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/range.h"
 #include "core/run_context.h"
 #include "export/format.h"
 #include "table/table.h"
@@ -17,14 +18,12 @@ namespace ltc {
 // Largest values allowed, and the effort of the checks that sample; docs/validation.md says what
 // each means and why it stands where it does.
 struct InvariantLimits {
-  static constexpr double none = 1e300;  // what settings take to exclude nothing that is finite
-
   double condition_number = 1e7;   // of M: its largest singular value over its smallest
   double zero = 0;                 // entries of S that equation (16) says are zero
   double upward_difference = 0;    // between values at theta = 0 that differ in phi alone
   double unit_length = 1e-6;       // of the third column of S, its length's deviation from 1
   double alignment_degrees = 0.1;  // by which the closed form would turn M further
-  double half_error = none;        // of the lobe, by rounding S to half precision
+  double half_error = no_limit;    // of the lobe, by rounding S to half precision
   double inverse_error = 0.01;     // of the lobe, by inverting M in single precision
   double below_horizon = 1;        // share of the lobe
   double albedo_error = 2e-4;      // of amplitude and Fresnel against fresh quadrature

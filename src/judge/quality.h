@@ -58,6 +58,12 @@ enum class QueryState {
   outside,  // beyond the table's axes
   missing,  // needs an entry that is skipped or failed
 };
+constexpr EnumNames<QueryState, 3> enum_names(QueryState) {
+  return {"state",
+          {{{QueryState::judged, "judged"},
+            {QueryState::outside, "outside"},
+            {QueryState::missing, "missing"}}}};
+}
 
 // What a table answers when it is asked for a lobe.
 struct Answer {

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "core/angle.h"
-#include "core/shell_quoted.h"
+#include "core/range.h"
 #include "ltc/ltsd.h"
 
 namespace ltc {
@@ -179,7 +179,7 @@ std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
   const auto check = [&](const char* key, const char* what, double value, double limit) {
     const bool passed = std::isnan(value) ? !demanded.contains(key) : value <= limit;
     ThresholdCheck result{key, what, value, limit, passed, ""};
-    if (limit >= QualityThresholds::none)
+    if (limit >= no_limit)
       result.reason = "no limit is set";
     return result;
   };
@@ -209,13 +209,6 @@ std::string band_text(const Bands& bands, const Band& band) {
   if (std::isinf(band.last))
     return fmt::format("> {:.4g}{}", band.first, bands.unit);
   return fmt::format("{:.4g}–{:.4g}{}", band.first, band.last, bands.unit);
-}
-
-std::string query_command(const std::string& file, const GgxLobe& lobe) {
-  return fmt::format(
-      "ltcfit fit --as-in {} --alpha-x {:.9g} --alpha-y {:.9g} --theta {:.9g} --phi {:.9g}",
-      shell_quoted(file), lobe.alpha_x, lobe.alpha_y, lobe.theta_radians / radians_per_degree,
-      lobe.phi_radians / radians_per_degree);
 }
 
 }  // namespace ltc

@@ -17,8 +17,6 @@ void summarize_quality(QualityReport& report);
 
 // The largest means that a table may have; each is compared with what the report has by that name.
 struct QualityThresholds {
-  static constexpr double none = 1e300;  // no limit
-
   double node_loss = 0.07;
   double query_loss = 0.13;
   double area_light_error = 0.026;
@@ -52,9 +50,5 @@ std::string failure_line(const ThresholdCheck& check);
 
 // "0.1–0.2", "> 75°".
 std::string band_text(const Bands& bands, const Band& band);
-
-// The command that shows what the table in a file gives for a lobe, and an LTC fitted to that very
-// lobe beside it: "ltcfit fit --as-in out/ltc.h5 --alpha-x 0.04 …".
-std::string query_command(const std::string& file, const GgxLobe& lobe);
 
 }  // namespace ltc

@@ -15,24 +15,22 @@ using config::Range;
 using Key = config::KeyOf<ValidateSettings>;
 using S = ValidateSettings;
 
-constexpr double unbounded = InvariantLimits::none;
-
 // One line a key: its name, the member it sets, what is allowed, what it means. A new section is a
 // function like this one, and a line in keys().
 // clang-format off
 std::vector<Key> invariant_keys() {
   return {
-      key("invariants.condition_number", [](S& s) { return &s.invariants.condition_number; }, Range{1, unbounded}, "largest condition number of a matrix M"),
-      key("invariants.zero", [](S& s) { return &s.invariants.zero; }, Range{0, unbounded}, "largest absolute value where symmetry wants a zero"),
-      key("invariants.upward_difference", [](S& s) { return &s.invariants.upward_difference; }, Range{0, unbounded}, "largest difference between values at theta = 0 that differ in phi alone"),
-      key("invariants.unit_length", [](S& s) { return &s.invariants.unit_length; }, Range{0, unbounded}, "largest deviation of a third column's length from 1"),
+      key("invariants.condition_number", [](S& s) { return &s.invariants.condition_number; }, Range{1, no_limit}, "largest condition number of a matrix M"),
+      key("invariants.zero", [](S& s) { return &s.invariants.zero; }, Range{0, no_limit}, "largest absolute value where symmetry wants a zero"),
+      key("invariants.upward_difference", [](S& s) { return &s.invariants.upward_difference; }, Range{0, no_limit}, "largest difference between values at theta = 0 that differ in phi alone"),
+      key("invariants.unit_length", [](S& s) { return &s.invariants.unit_length; }, Range{0, no_limit}, "largest deviation of a third column's length from 1"),
       key("invariants.alignment_degrees", [](S& s) { return &s.invariants.alignment_degrees; }, Range{0, 180}, "largest angle by which alignment would turn a matrix further"),
-      key("invariants.half_error", [](S& s) { return &s.invariants.half_error; }, Range{0, unbounded}, "largest distance of a lobe to that of its matrix in half precision, over its spread"),
-      key("invariants.inverse_error", [](S& s) { return &s.invariants.inverse_error; }, Range{0, unbounded}, "largest distance of a lobe to the one of a single-precision inverse, over its spread"),
+      key("invariants.half_error", [](S& s) { return &s.invariants.half_error; }, Range{0, no_limit}, "largest distance of a lobe to that of its matrix in half precision, over its spread"),
+      key("invariants.inverse_error", [](S& s) { return &s.invariants.inverse_error; }, Range{0, no_limit}, "largest distance of a lobe to the one of a single-precision inverse, over its spread"),
       key("invariants.below_horizon", [](S& s) { return &s.invariants.below_horizon; }, Range{0, 1}, "largest share of a lobe below the horizon"),
       key("invariants.albedo_error", [](S& s) { return &s.invariants.albedo_error; }, Range{0, 1}, "largest error of amplitude and Fresnel against fresh quadrature"),
-      key("invariants.loss_excess", [](S& s) { return &s.invariants.loss_excess; }, Range{0, unbounded}, "largest loss of a lobe over the stored one"),
-      key("invariants.neighbour_excess", [](S& s) { return &s.invariants.neighbour_excess; }, Range{0, unbounded}, "largest jump between neighbours over that of GGX"),
+      key("invariants.loss_excess", [](S& s) { return &s.invariants.loss_excess; }, Range{0, no_limit}, "largest loss of a lobe over the stored one"),
+      key("invariants.neighbour_excess", [](S& s) { return &s.invariants.neighbour_excess; }, Range{0, no_limit}, "largest jump between neighbours over that of GGX"),
       key("invariants.neighbour_slack", [](S& s) { return &s.invariants.neighbour_slack; }, Range{0, 2}, "distance between neighbours' lobes that is no jump"),
       key("invariants.albedo_points", [](S& s) { return &s.invariants.albedo_points; }, Range{64, 1 << 20}, "points of the fresh quadrature"),
       key("invariants.samples", [](S& s) { return &s.invariants.samples; }, Range{1024, 65536}, "samples of a lobe, for stored loss and neighbours; fewer are too noisy for their limits"),
@@ -42,9 +40,9 @@ std::vector<Key> invariant_keys() {
 
 std::vector<Key> quality_keys() {
   return {
-      key("quality.node_loss", [](S& s) { return &s.thresholds.node_loss; }, Range{0, unbounded}, "largest mean relative loss at nodes"),
-      key("quality.query_loss", [](S& s) { return &s.thresholds.query_loss; }, Range{0, unbounded}, "largest mean relative loss between nodes"),
-      key("quality.area_light_error", [](S& s) { return &s.thresholds.area_light_error; }, Range{0, unbounded}, "largest mean error under area lights"),
+      key("quality.node_loss", [](S& s) { return &s.thresholds.node_loss; }, Range{0, no_limit}, "largest mean relative loss at nodes"),
+      key("quality.query_loss", [](S& s) { return &s.thresholds.query_loss; }, Range{0, no_limit}, "largest mean relative loss between nodes"),
+      key("quality.area_light_error", [](S& s) { return &s.thresholds.area_light_error; }, Range{0, no_limit}, "largest mean error under area lights"),
       key("quality.nodes", [](S& s) { return &s.quality.most_nodes; }, Range{0, 1 << 24}, "nodes judged, drawn at random where the table has more"),
       key("quality.node_samples", [](S& s) { return &s.quality.node_samples; }, Range{64, 1 << 20}, "samples of a node's lobe"),
       key("quality.node_directions", [](S& s) { return &s.quality.node_directions; }, Range{4, 4096}, "directions that they are projected on"),
@@ -111,7 +109,7 @@ ValidateSettings settings_for_refined_tables() {
   settings.invariants.inverse_error = 0.1;
   settings.invariants.neighbour_excess = 10;
   settings.invariants.neighbour_slack = 0.05;
-  settings.thresholds = {unbounded, 0.1, 0.018};
+  settings.thresholds = {no_limit, 0.1, 0.018};
   return settings;
 }
 
@@ -127,14 +125,15 @@ ValidateSettings settings_for(const Table& table) {
 
 ValidateSettings load_validate_settings(const std::optional<std::filesystem::path>& file,
                                         std::span<const std::string> overrides,
-                                        ValidateSettings settings) {
+                                        ValidateSettings settings,
+                                        std::string_view overrides_from) {
   const config::Vocabulary vocabulary =
       config::vocabulary(keys(), settings, "config/validate.toml lists the keys there are");
   config::Sources sources;
   if (file)
     config::read_file(*file, vocabulary, sources);
   for (const std::string& override : overrides)
-    config::read_override(override, vocabulary, sources);
+    config::read_override(override, std::string(overrides_from), vocabulary, sources);
   for (const config::KeySource& source : sources)
     settings.said.insert(source.key);
   return settings;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t set_count = 8;
 constexpr std::size_t bins = 32;
-// As in the descent of one lobe: below this share of the loss a residual counts as zero.
+// Below this share of the loss a residual counts as zero.
 constexpr double smoothing_share = 0.05;
 
 Eigen::Matrix3d random_rotation(Random& random) {

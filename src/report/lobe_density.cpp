@@ -260,11 +260,6 @@ LobeWindow choose_window(const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
   return window.half_width > widest_zoom ? hemisphere_window() : window;
 }
 
-double pixel_solid_angle(const LobeWindow& window, std::size_t side) {
-  const double step = 2 * window.half_width / static_cast<double>(side);
-  return step * step;
-}
-
 Field ggx_density(const GgxLobe& lobe, const LobeWindow& window, std::size_t side) {
   const GgxSampler sampler(lobe);
   const double amplitude = integrate_albedo(lobe, AlbedoRule()).amplitude;

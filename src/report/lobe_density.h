@@ -41,7 +41,4 @@ picture::Field ggx_density(const GgxLobe& lobe, const LobeWindow& window, std::s
 picture::Field ltc_density(const Eigen::Matrix3d& matrix, const GgxLobe& lobe,
                            const LobeWindow& window, std::size_t side);
 
-// Solid angle of one of a window's side * side pixels.
-double pixel_solid_angle(const LobeWindow& window, std::size_t side);
-
 }  // namespace ltc

@@ -31,8 +31,7 @@ double second_roughness(const Grid& grid, const GgxLobe& folded);
 // axis of it: a lobe is turned about the normal to that node's azimuth, and back by `unfold`.
 // With Layout::alphax_alphay, which has both orders of the roughnesses, the azimuth is folded by
 // equation (13) and nothing is swapped, as that table's users do. Everywhere else lobes are folded.
-// A table with one node along phi and lobes of other lambda
-// serves views along that azimuth alone.
+// A table with one node along phi and lobes of other lambda serves views along that azimuth alone.
 class Reduction {
  public:
   // Keeps a reference to the grid.

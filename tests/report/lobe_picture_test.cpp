@@ -19,6 +19,12 @@ namespace {
 
 constexpr std::size_t side = 128;
 
+// Of one of a window's pixels: the projection keeps areas.
+double pixel_solid_angle(const LobeWindow& window, std::size_t pixels) {
+  const double step = 2 * window.half_width / static_cast<double>(pixels);
+  return step * step;
+}
+
 double integral(const picture::Field& field, const LobeWindow& window) {
   double sum = 0;
   for (const float value : field.values)
