@@ -109,4 +109,25 @@ TEST(Layers, OpenMPIsOfOneFile) {
             std::vector<std::string>{"core/parallel.h"});
 }
 
+// Options of the program in texts of the library, which others than the program show.
+std::vector<std::string> options_named(const std::string& text) {
+  return matches(text,
+                 "\"[^\"\n]*(--[a-z][a-z-]*|ltcfit (generate|fit|diff|validate|render))[^\"\n]*\"");
+}
+
+TEST(Layers, NoTextOfTheLibraryNamesAnOption) {
+  const fs::path source = fs::path(LTCFIT_SOURCE_DIR) / "src";
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source))
+    if (entry.is_regular_file() && *fs::relative(entry.path(), source).begin() != "cli") {
+      EXPECT_EQ(options_named(text_of(entry.path())), std::vector<std::string>{}) << entry.path();
+    }
+}
+
+TEST(Layers, AnOptionIsFound) {
+  EXPECT_EQ(options_named("refuse(\"go on with its --scene\");"),
+            std::vector<std::string>{"--scene"});
+  EXPECT_EQ(options_named("\"ltcfit fit {}\""), std::vector<std::string>{"ltcfit fit"});
+  EXPECT_TRUE(options_named("\"a -- b\"; --count;").empty());
+}
+
 }  // namespace

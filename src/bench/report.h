@@ -20,9 +20,6 @@ struct FrontierReport {
   std::string published_file, reference_file;
 };
 
-// "their own fits", "the published table", …
-std::string name_of(ErrorSource source);
-
 // One object: the conditions of the run, and `settings`, one object a setting. Units are in the
 // names; what was not measured is null.
 std::string frontier_json(const FrontierReport& report);

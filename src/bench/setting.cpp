@@ -135,10 +135,10 @@ std::vector<BenchSetting> select_settings(const std::vector<BenchSetting>& all,
     const auto is_named = [&](const BenchSetting& setting) { return setting.name == name; };
     const auto found = std::find_if(all.begin(), all.end(), is_named);
     if (found == all.end())
-      throw InputError(fmt::format("--settings: unknown setting \"{}\"; expected a list of {}",
-                                   name, names_of(all)));
+      throw InputError(
+          fmt::format("unknown setting \"{}\"; expected a list of {}", name, names_of(all)));
     if (std::any_of(selected.begin(), selected.end(), is_named))
-      throw InputError(fmt::format("--settings: \"{}\" stands twice; expected each once", name));
+      throw InputError(fmt::format("setting \"{}\" stands twice; expected each once", name));
     selected.push_back(*found);
   }
   return selected;

@@ -15,6 +15,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/table_input.h"
+#include "core/error.h"
 #include "core/write_file.h"
 #include "table/entry_text.h"
 
@@ -120,6 +121,12 @@ std::optional<Table> table_of(const std::string& file, std::optional<Layout> lay
   return file.empty() ? std::nullopt : std::optional<Table>(read_input(file, layout));
 }
 
+std::vector<BenchSetting> chosen_settings(const Arguments& arguments, const Config& config) try {
+  return select_settings(available_settings(arguments, config), arguments.settings);
+} catch (const InputError& error) {
+  throw InputError(fmt::format("--settings: {}", error.what()));
+}
+
 void bench(const Arguments& arguments) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
@@ -132,7 +139,7 @@ void bench(const Arguments& arguments) {
   report.reference_file = arguments.reference;
   FrontierTask& task = report.task;
   task.grid = config.grid;
-  task.settings = select_settings(available_settings(arguments, config), arguments.settings);
+  task.settings = chosen_settings(arguments, config);
   task.entries = fitted_entries(config.grid);
   if (!arguments.all)
     task.entries = strided(task.entries, arguments.entries);

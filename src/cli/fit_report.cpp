@@ -14,6 +14,7 @@
 #include "cli/json_text.h"
 #include "cli/lobe_words.h"
 #include "judge/matrix_invariants.h"
+#include "report/lobe_picture.h"
 #include "table/entry_text.h"
 
 namespace ltc::cli {

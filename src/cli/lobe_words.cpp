@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <array>
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/shell_quoted.h"
 #include "judge/matrix_invariants.h"
+#include "table/entry_text.h"
 
 namespace ltc::cli {
 namespace {
@@ -25,9 +26,16 @@ std::string lobe_line(const GgxLobe& lobe) {
                      lobe.alpha_y, degrees(lobe.theta_radians), degrees(lobe.phi_radians));
 }
 
-std::string lobe_caption(const GgxLobe& lobe) {
-  return fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", lobe.alpha_x,
-                     lobe.alpha_y, degrees(lobe.theta_radians), degrees(lobe.phi_radians));
+std::string query_command(const std::string& file, const GgxLobe& lobe) {
+  return fmt::format(
+      "ltcfit fit --as-in {} --alpha-x {:.9g} --alpha-y {:.9g} --theta {:.9g} --phi {:.9g}",
+      shell_quoted(file), lobe.alpha_x, lobe.alpha_y, degrees(lobe.theta_radians),
+      degrees(lobe.phi_radians));
+}
+
+std::string entry_command(const std::string& file, const Grid& grid, std::size_t flat) {
+  return fmt::format("ltcfit fit --as-in {} --entry {}", shell_quoted(file),
+                     entry_text(grid, flat));
 }
 
 std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix) {

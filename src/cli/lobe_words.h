@@ -13,9 +13,13 @@
 
 namespace ltc::cli {
 
-// "alpha_x 0.4, alpha_y 0.1, theta 60, phi 30", in degrees; and as the caption of a picture.
+// "alpha_x 0.4, alpha_y 0.1, theta 60, phi 30", in degrees.
 std::string lobe_line(const GgxLobe& lobe);
-std::string lobe_caption(const GgxLobe& lobe);
+
+// The command that shows what the table in a file gives for a lobe, and an LTC fitted to that very
+// lobe beside it: "ltcfit fit --as-in out/ltc.h5 --alpha-x 0.04 …"; and the one for its entry.
+std::string query_command(const std::string& file, const GgxLobe& lobe);
+std::string entry_command(const std::string& file, const Grid& grid, std::size_t flat);
 
 // Four lines: the rows behind `name`, then determinant and condition number.
 std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix);

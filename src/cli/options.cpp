@@ -134,10 +134,10 @@ std::optional<std::filesystem::path> ConfigArguments::path() const {
 Config ConfigArguments::load() const {
   const std::optional<std::filesystem::path> config = path();
   if (!config)
-    return load_config(config, overrides);
+    return load_config(config, overrides, override_option);
   if (!toml)
     toml = config_text(*config);
-  return parse_config(*toml, *config, overrides);
+  return parse_config(*toml, *config, overrides, override_option);
 }
 
 std::string ConfigArguments::as_text() const {

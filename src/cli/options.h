@@ -72,6 +72,7 @@ struct ConfigArguments {
   std::vector<std::string> overrides;
 
   std::optional<std::filesystem::path> path() const;
+  static constexpr const char* override_option = "--set";
   Config load() const;  // reads the file once: it may be a pipe
   // " --config F --set key=value", as a shell reads it.
   std::string as_text() const;

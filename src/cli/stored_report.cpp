@@ -9,6 +9,7 @@
 
 #include "cli/lobe_words.h"
 #include "judge/matrix_invariants.h"
+#include "report/lobe_picture.h"
 #include "table/entry_text.h"
 #include "table/lookup.h"
 

@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/lobe_words.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -49,8 +50,9 @@ void validate(const Arguments& arguments, Files& files) {
     files.write("--report", files.make_folder(arguments.report) / page_name);
   Validation report{
       arguments.table, read_input(arguments.table, arguments.layout), {}, std::nullopt, {}};
-  const ValidateSettings settings = load_validate_settings(
-      arguments.config.path(), arguments.config.overrides, settings_for(report.table));
+  const ValidateSettings settings =
+      load_validate_settings(arguments.config.path(), arguments.config.overrides,
+                             settings_for(report.table), ConfigArguments::override_option);
   report.invariants =
       check_invariants(report.table, settings.invariants, run, contents_of(arguments.table));
   if (!arguments.no_quality) {
@@ -60,6 +62,10 @@ void validate(const Arguments& arguments, Files& files) {
       if (!check.reason.empty())
         check.reason = why_not_limited(report.table);
   }
+  report.query_command = [&](const GgxLobe& lobe) { return query_command(arguments.table, lobe); };
+  report.entry_command = [&](std::size_t flat) {
+    return entry_command(arguments.table, report.table.grid, flat);
+  };
   const std::string page = arguments.report.empty() ? "" : validation_page(report, {}, run);
   // The last chance to stop.
   run.throw_if_stopped();

@@ -47,14 +47,15 @@ void check_together(const Draft& draft, const config::Sources& sources) {
 
 // The defaults, what `read` says, then the overrides.
 template <class Read>
-Config config_from(Read&& read, std::span<const std::string> overrides) {
+Config config_from(Read&& read, std::span<const std::string> overrides,
+                   std::string_view overrides_from) {
   Draft draft = config::draft_of(Config{});
   const config::Vocabulary vocabulary =
       config::vocabulary(config::keys(), draft, "config/default.toml lists the keys there are");
   config::Sources sources;
   read(vocabulary, sources);
   for (const std::string& override : overrides)
-    config::read_override(override, vocabulary, sources);
+    config::read_override(override, std::string(overrides_from), vocabulary, sources);
   check_together(draft, sources);
   return config::config_of(draft);
 }
@@ -62,13 +63,13 @@ Config config_from(Read&& read, std::span<const std::string> overrides) {
 }  // namespace
 
 Config load_config(const std::optional<std::filesystem::path>& file,
-                   std::span<const std::string> overrides) {
+                   std::span<const std::string> overrides, std::string_view overrides_from) {
   return config_from(
       [&](const config::Vocabulary& vocabulary, config::Sources& sources) {
         if (file)
           config::read_file(*file, vocabulary, sources);
       },
-      overrides);
+      overrides, overrides_from);
 }
 
 std::string read_config(const std::filesystem::path& file) {
@@ -76,12 +77,12 @@ std::string read_config(const std::filesystem::path& file) {
 }
 
 Config parse_config(std::string_view text, const std::filesystem::path& source,
-                    std::span<const std::string> overrides) {
+                    std::span<const std::string> overrides, std::string_view overrides_from) {
   return config_from(
       [&](const config::Vocabulary& vocabulary, config::Sources& sources) {
         config::read_text(text, source, vocabulary, sources);
       },
-      overrides);
+      overrides, overrides_from);
 }
 
 std::string to_toml(const Config& config) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// The effective configuration of a run: defaults, then a TOML file, then --set key=value.
+// The effective configuration of a run: defaults, then a TOML file, then key=value overrides.
 #pragma once
 
 #include <filesystem>
@@ -38,9 +38,11 @@ struct Config {
 // The defaults, then what `file` says if there is one, then the overrides in order, each
 // "key=value": the value as in TOML, or a bare string where that is not TOML. Throws InputError for
 // an unknown key, a wrong type, a value out of range or broken syntax (one line: where it was
-// said, the key, the value, what is allowed), IoError for a file that cannot be read.
+// said, the key, the value, what is allowed), IoError for a file that cannot be read. Messages say
+// `overrides_from` where an override said it, such as an option's name.
 Config load_config(const std::optional<std::filesystem::path>& file,
-                   std::span<const std::string> overrides);
+                   std::span<const std::string> overrides,
+                   std::string_view overrides_from = "override");
 
 // The text of a config's file, which parse_config then reads. Throws as load_config.
 std::string read_config(const std::filesystem::path& file);
@@ -48,7 +50,8 @@ std::string read_config(const std::filesystem::path& file);
 // The same with the text of a config that is at hand, such as the one in a table's file; `source`
 // stands in messages for the file.
 Config parse_config(std::string_view text, const std::filesystem::path& source,
-                    std::span<const std::string> overrides);
+                    std::span<const std::string> overrides,
+                    std::string_view overrides_from = "override");
 
 // Every key with its value, as TOML that load_config reads back to the same Config, bit for bit.
 // (To the last bit only if the angles are those of some number of degrees, as those of every config

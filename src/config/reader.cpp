@@ -80,10 +80,12 @@ void read_text(std::string_view text, const std::filesystem::path& source,
   set_keys_of(parse_toml(text, source), source, vocabulary, sources);
 }
 
-void read_override(std::string_view override, const Vocabulary& vocabulary, Sources& sources) {
+void read_override(std::string_view override, const std::string& source,
+                   const Vocabulary& vocabulary, Sources& sources) {
   const std::size_t equals = override.find('=');
   if (equals == std::string_view::npos || equals == 0)
-    throw InputError(fmt::format("--set {}: expected key=value, for example fit.seed=2", override));
+    throw InputError(
+        fmt::format("{} {}: expected key=value, for example fit.seed=2", source, override));
   const std::string name(override.substr(0, equals));
   const std::string_view text = override.substr(equals + 1);
   const auto parsed = [&]() -> std::optional<toml::table> {
@@ -96,9 +98,9 @@ void read_override(std::string_view override, const Vocabulary& vocabulary, Sour
     return std::nullopt;
   }();
   if (parsed)
-    set_key(name, *parsed->get("value"), "--set", vocabulary, sources);
+    set_key(name, *parsed->get("value"), source, vocabulary, sources);
   else
-    set_key(name, toml::value<std::string>(std::string(text)), "--set", vocabulary, sources);
+    set_key(name, toml::value<std::string>(std::string(text)), source, vocabulary, sources);
 }
 
 std::string latest_source(const Sources& sources, std::initializer_list<std::string_view> keys) {

@@ -36,7 +36,7 @@ Vocabulary vocabulary(const std::vector<KeyOf<Settings>>& keys, Settings& settin
   return result;
 }
 
-// Every key read so far, in order, and where: "config/default.toml:12" or "--set".
+// Every key read so far, in order, and where: "config/default.toml:12", or what overrides go by.
 struct KeySource {
   std::string key, source;
 };
@@ -49,8 +49,9 @@ void read_file(const std::filesystem::path& file, const Vocabulary& vocabulary, 
 void read_text(std::string_view text, const std::filesystem::path& source,
                const Vocabulary& vocabulary, Sources& sources);
 
-// Sets what one "key=value" says. Throws InputError.
-void read_override(std::string_view override, const Vocabulary& vocabulary, Sources& sources);
+// Sets what one "key=value" says. Throws InputError, with `source` in front.
+void read_override(std::string_view override, const std::string& source,
+                   const Vocabulary& vocabulary, Sources& sources);
 
 // Where the latest of these keys was said; "config" if all have their defaults.
 std::string latest_source(const Sources& sources, std::initializer_list<std::string_view> keys);

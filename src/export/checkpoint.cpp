@@ -113,8 +113,10 @@ void require_same_run(const Hdf5Input& file, const Config& config, const std::ve
                        difference->key, difference->other.empty() ? "nothing" : difference->other,
                        difference->value, way_out));
   if (file.values<std::uint8_t>("needed", {needed.size()}) != flags_of(needed))
-    refuse(path, fmt::format("made for other entries; go on with its --scene and --extend, or {}",
-                             way_out));
+    refuse(path,
+           fmt::format(
+               "made for other entries; go on with its scene and the table that it extends, or {}",
+               way_out));
 }
 
 }  // namespace

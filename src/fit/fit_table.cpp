@@ -145,11 +145,8 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
     copy_by_symmetry(plan, run, results);
   };
   const auto plain_request = [&](std::size_t flat) {
-    return FitRequest{grid.lobe(flat),
-                      entry_seed(settings.seed, equal.first_of(flat)),
-                      {},
-                      {},
-                      run.progress};
+    return FitRequest{
+        grid.lobe(flat), entry_seed(settings.seed, equal.first_of(flat)), {}, {}, run.progress};
   };
   if (watch)
     watch->fits.assign(1, {});

@@ -78,7 +78,7 @@ void require_same_grid(const Grid& a, const Grid& b) {
     throw InputError(
         fmt::format("the tables have different axes: those of one hold {}, of the other {}; "
                     "entries can only be compared on the same grid",
-                    layout_name(a.layout), layout_name(b.layout)));
+                    name_of(a.layout), name_of(b.layout)));
   throw InputError(
       "the tables have different axes or another alpha_min; entries can only be "
       "compared on the same grid");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// What `ltcfit validate` demands of a table: thresholds and efforts, from config/validate.toml.
+// What is demanded of a table: thresholds and efforts, from config/validate.toml.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/config.h"
@@ -37,7 +38,8 @@ ValidateSettings settings_for(const Table& table);
 // Throws InputError and IoError as load_config does.
 ValidateSettings load_validate_settings(const std::optional<std::filesystem::path>& file,
                                         std::span<const std::string> overrides,
-                                        ValidateSettings settings = {});
+                                        ValidateSettings settings = {},
+                                        std::string_view overrides_from = "override");
 
 // What can be set, in the order of the file; validate_settings.cpp is where keys are added.
 std::vector<ConfigKey> validate_keys();

@@ -2,11 +2,14 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "report/lobe_picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "core/angle.h"
 #include "report/lobe_window_marks.h"
 
 namespace ltc {
@@ -80,6 +83,12 @@ picture::Scale density_scale(const Field& ggx, const Field& ltc) {
     return picture::Scale::linear(0, peak);
   const double bulk = std::min(bulk_density(ggx), bulk_density(ltc));
   return picture::Scale::logarithmic(std::clamp(bulk, 1e-5 * peak, 0.03 * peak), peak);
+}
+
+std::string lobe_caption(const GgxLobe& lobe) {
+  return fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", lobe.alpha_x,
+                     lobe.alpha_y, lobe.theta_radians / radians_per_degree,
+                     lobe.phi_radians / radians_per_degree);
 }
 
 picture::PanelRow lobe_panels(const GgxLobe& lobe, const Eigen::Matrix3d& matrix,

@@ -18,6 +18,9 @@ namespace ltc {
 inline constexpr double sharp_peak = 12;
 picture::Scale density_scale(const picture::Field& ggx, const picture::Field& ltc);
 
+// "alpha_x 0.4, alpha_y 0.1, θ 60°, φ 30°".
+std::string lobe_caption(const GgxLobe& lobe);
+
 // Three panels. `words` are written above and below, with a line on the projection.
 picture::PanelRow lobe_panels(const GgxLobe& lobe, const Eigen::Matrix3d& matrix,
                               picture::Words words, std::size_t side = 256);

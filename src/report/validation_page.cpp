@@ -67,8 +67,8 @@ std::string header(const Validation& validation) {
              "<h1>{}</h1>\n<p class=\"faint\">{} entries over {}, θ, φ, "
              "storage {}{}</p>\n<p class=\"faint\">{}</p>\n",
              escaped(validation.file), shape_text(table.grid, " × "),
-             table.grid.layout == Layout::alphax_alphay ? "αx, αy" : "α, λ",
-             name_of(table.storage), escaped(made), escaped(kind_text(table))) +
+             table.grid.layout == Layout::alphax_alphay ? "αx, αy" : "α, λ", name_of(table.storage),
+             escaped(made), escaped(kind_text(table))) +
          sentence(validation);
 }
 
@@ -172,24 +172,36 @@ std::string figures(const QualityReport& quality) {
              quality.area_light_noise);
 }
 
-std::string pairs_html(const std::vector<NamedPicture>& pictures) {
-  std::string html = "<div class=\"pair\">\n";
+std::string pictures_html(const std::vector<NamedPicture>& pictures) {
+  std::string html;
   for (const NamedPicture& picture : pictures)
     html += html::figure(picture.canvas, picture.title, picture.caption);
-  return html + "</div>\n";
+  return html;
+}
+
+std::vector<NamedPicture> band_pictures(const QualityReport& quality) {
+  constexpr int width = 1040, height = 600;
+  std::vector<NamedPicture> pictures;
+  for (const picture::Chart& chart : band_charts(quality))
+    pictures.push_back({chart.words.title, "", picture::render(chart, width, height)});
+  return pictures;
+}
+
+// Two beside each other where there is room.
+std::string in_pairs(const std::vector<NamedPicture>& pictures) {
+  return "<div class=\"pair\">\n" + pictures_html(pictures) + "</div>\n";
 }
 
 std::string worst_queries(const Validation& validation) {
   const QualityReport& quality = validation.quality.value();
   html::Table table{{"query", "loss", "floor", "area lights", "floor", "look into it"}, {}, 0, 5};
   for (const std::size_t i : quality.worst_queries)
-    table.rows.push_back(
-        {fmt::format("{}", i), number(quality.queries[i].relative_loss, 3),
-         number(quality.floors[i].relative_loss, 3),
-         number(quality.queries[i].area_light.mean_absolute, 4),
-         number(quality.floors[i].area_light.mean_absolute, 4),
-         fmt::format("<code>{}</code>",
-                     escaped(query_command(validation.file, quality.floors[i].lobe)))});
+    table.rows.push_back({fmt::format("{}", i), number(quality.queries[i].relative_loss, 3),
+                          number(quality.floors[i].relative_loss, 3),
+                          number(quality.queries[i].area_light.mean_absolute, 4),
+                          number(quality.floors[i].area_light.mean_absolute, 4),
+                          fmt::format("<code>{}</code>",
+                                      escaped(validation.query_command(quality.floors[i].lobe)))});
   return "<h2>Furthest above the floor</h2>\n" + html::table(table);
 }
 
@@ -241,10 +253,10 @@ std::string validation_page(const Validation& validation, const PageSettings& se
                             const RunContext& run) {
   const QualityReport& quality = validation.quality.value();
   std::string body = header(validation) + tiles(validation) + checks(validation) +
-                     figures(quality) + pairs_html(band_pictures(quality)) + worst_queries(validation);
+                     figures(quality) + in_pairs(band_pictures(quality)) +
+                     worst_queries(validation);
   body += pictures_html(lobe_pictures(validation, settings.lobes, run));
-  body += "<h2>The whole table</h2>\n<div class=\"pair\">\n" +
-          pictures_html(table_pictures(validation)) + "</div>\n";
+  body += "<h2>The whole table</h2>\n" + in_pairs(table_pictures(validation));
   if (settings.sphere_size > 0) {
     const NamedPicture spheres = sphere_picture(validation, settings, run);
     body += "<h2>Rendered</h2>\n" + html::figure(spheres.canvas, spheres.title, spheres.caption);

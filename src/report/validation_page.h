@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ struct Validation {
   std::vector<InvariantResult> invariants;
   std::optional<QualityReport> quality;  // nothing where it was not asked for
   std::vector<ThresholdCheck> thresholds;
+  // What a person types to look into a lobe or an entry.
+  std::function<std::string(const GgxLobe&)> query_command = [](const GgxLobe&) { return ""; };
+  std::function<std::string(std::size_t)> entry_command = [](std::size_t) { return ""; };
 };
 
 // What the limits of a table depend on, in one line: whether it was refined, and its precision.

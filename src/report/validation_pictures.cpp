@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "core/parallel.h"
-#include "core/shell_quoted.h"
 #include "judge/matrix_invariants.h"
 #include "render/missing_albedo.h"
 #include "render/sphere_picture.h"
@@ -27,7 +26,6 @@ using picture::ScaleKind;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t lobe_side = 200;  // pixels that a lobe's density is computed for
 constexpr int lobe_width = 1400;        // of its picture
-constexpr int chart_width = 1040, chart_height = 600;
 
 std::vector<double> of_entries(const Table& table, auto&& value) {
   std::vector<double> values(table.grid.size(), nan);
@@ -79,7 +77,7 @@ std::vector<LobeToDraw> worst_lobes(const Validation& validation, std::size_t mo
          fmt::format("LTC as the table's look-up gives it; error under area lights {:.4f}, floor "
                      "{:.4f}",
                      quality.queries[i].area_light.mean_absolute, floor.area_light.mean_absolute),
-         query_command(validation.file, floor.lobe)});
+         validation.query_command(floor.lobe)});
   }
   return lobes;
 }
@@ -97,9 +95,7 @@ std::vector<LobeToDraw> failing_entries(const Validation& validation, std::size_
     drawn.push_back(flat);
     lobes.push_back({table.grid.lobe(flat), table.matrix_at(flat),
                      fmt::format("Entry {} fails: {}", entry_text(table.grid, flat), result.name),
-                     result.message,
-                     fmt::format("ltcfit fit --as-in {} --entry {}", shell_quoted(validation.file),
-                                 entry_text(table.grid, flat))});
+                     result.message, validation.entry_command(flat)});
   }
   return lobes;
 }
@@ -112,20 +108,19 @@ picture::Series levels(const char* name, const Bands& bands, double Band::*mean,
   for (const Band& band : bands.bands) {
     const double last = std::min(band.last, std::max(end, band.first));
     series.points.push_back({band.first, band.*mean});
-    series.points.push_back(
-        {(band.first + last) / 2, band.*mean, fmt::format("{:.{}f}", band.*mean, decimals)});
+    const bool known = std::isfinite(band.*mean);
+    series.points.push_back({(band.first + last) / 2, band.*mean,
+                             known ? fmt::format("{:.{}f}", band.*mean, decimals) : ""});
     series.points.push_back({last, band.*mean});
   }
   return series;
 }
 
-NamedPicture band_picture(const char* what, const Bands& bands, double Band::*table,
+picture::Chart band_chart(const char* what, const Bands& bands, double Band::*table,
                           double Band::*floor, int decimals) {
-  const std::string title = fmt::format("{} by {}", what, bands.parameter);
   picture::Chart chart;
-  chart.words.title = title;
-  chart.x.title =
-      bands.parameter + (bands.unit.empty() ? "" : fmt::format(" ({})", bands.unit));
+  chart.words.title = fmt::format("{} by {}", what, bands.parameter);
+  chart.x.title = bands.parameter + (bands.unit.empty() ? "" : fmt::format(" ({})", bands.unit));
   chart.series = {levels("floor", bands, floor, decimals, picture::faint_ink, {12, 8}),
                   levels("table", bands, table, decimals, picture::series_color(0))};
   double largest = 0;
@@ -134,21 +129,21 @@ NamedPicture band_picture(const char* what, const Bands& bands, double Band::*ta
       if (std::isfinite(point.y))
         largest = std::max(largest, point.y);
   chart.y.scale = picture::Scale::linear(0, largest > 0 ? 1.15 * largest : 1);
-  return {title, "", picture::render(chart, chart_width, chart_height)};
+  return chart;
 }
 
 }  // namespace
 
-std::vector<NamedPicture> band_pictures(const QualityReport& quality) {
-  std::vector<NamedPicture> pictures;
+std::vector<picture::Chart> band_charts(const QualityReport& quality) {
+  std::vector<picture::Chart> charts;
   for (const Bands& bands : quality.bands)
     if (!bands.bands.empty()) {
-      pictures.push_back(band_picture("Loss between nodes", bands, &Band::relative_loss,
-                                      &Band::floor_loss, 3));
-      pictures.push_back(band_picture("Error under area lights", bands, &Band::area_light_error,
-                                      &Band::floor_area_light_error, 4));
+      charts.push_back(
+          band_chart("Loss between nodes", bands, &Band::relative_loss, &Band::floor_loss, 3));
+      charts.push_back(band_chart("Error under area lights", bands, &Band::area_light_error,
+                                  &Band::floor_area_light_error, 4));
     }
-  return pictures;
+  return charts;
 }
 
 std::vector<NamedPicture> table_pictures(const Validation& validation) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "picture/canvas.h"
+#include "picture/chart.h"
 #include "report/validation_page.h"
 
 namespace ltc {
@@ -23,7 +24,7 @@ struct NamedPicture {
 std::vector<NamedPicture> table_pictures(const Validation& validation);
 
 // Mean loss and error under area lights over each parameter of the queries, beside their floors.
-std::vector<NamedPicture> band_pictures(const QualityReport& quality);
+std::vector<picture::Chart> band_charts(const QualityReport& quality);
 
 // GGX, LTC and difference of the worst queries as the table looks them up, then of entries that
 // break an invariant.

@@ -72,7 +72,7 @@ TEST(BenchSettings, UnknownEmptyAndRepeatedNamesAreRefused) {
   const auto refusal = [](std::string_view list) {
     return test::message_of<InputError>([&] { select_settings(bench_settings(1), list); });
   };
-  test::expect_one_line(refusal("defualt"), {"--settings", "\"defualt\"", "sgd-published"});
+  test::expect_one_line(refusal("defualt"), {"unknown setting \"defualt\"", "sgd-published"});
   test::expect_one_line(refusal("default,"), {"\"\""});
   test::expect_one_line(refusal(","), {"\"\""});
   test::expect_one_line(refusal("default,default"), {"\"default\" stands twice"});

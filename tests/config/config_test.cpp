@@ -130,7 +130,8 @@ TEST(Config, OverridesTakeBareStringsAndWholeNumbersForReals) {
 }
 
 TEST(Config, UnknownKeysAreNamedWithTheNearest) {
-  expect_refused("fit.sgd.stepz=3", {"--set", "fit.sgd.stepz", "3", "did you mean fit.sgd.steps?"});
+  expect_refused("fit.sgd.stepz=3",
+                 {"override", "fit.sgd.stepz", "3", "did you mean fit.sgd.steps?"});
   expect_refused("learning_rate=3", {"did you mean fit.sgd.learning_rate?"});
   expect_refused("colour=\"red\"", {"unknown key colour", "config/default.toml"});
   expect_refused("fit.sgd=3", {"fit.sgd is a section"});
@@ -152,7 +153,7 @@ TEST(Config, WrongTypesAreRefused) {
 }
 
 TEST(Config, ValuesOutOfRangeAreRefused) {
-  expect_refused("fit.sgd.steps=0", {"--set: fit.sgd.steps = 0", "[1, 10000000]"});
+  expect_refused("fit.sgd.steps=0", {"override: fit.sgd.steps = 0", "[1, 10000000]"});
   expect_refused("fit.seed=-1", {"fit.seed = -1", "[0, 9007199254740992]"});
   expect_refused("fit.sgd.learning_rate=0", {"(0, 1000]"});
   expect_refused("fit.sgd.learning_rate=nan", {"= nan", "(0, 1000]"});
@@ -168,7 +169,8 @@ TEST(Config, ValuesOutOfRangeAreRefused) {
 }
 
 TEST(Config, KeysThatDoNotGoTogetherAreRefused) {
-  expect_refused("table.alpha.first=1", {"--set: table.alpha.first = 1", "table.alpha.last = 1"});
+  expect_refused("table.alpha.first=1",
+                 {"override: table.alpha.first = 1", "table.alpha.last = 1"});
   expect_refused("table.theta.first_degrees=89.995", {"table.theta.first_degrees", "89.991"});
   const std::string message = message_of<InputError>([] {
     load({"output.hdf5=false", "output.exr=false", "output.npy=false"});
@@ -177,13 +179,13 @@ TEST(Config, KeysThatDoNotGoTogetherAreRefused) {
   const std::string lattice = message_of<InputError>([] {
     load({"fit.target=rejection", "fit.sgd.lattice_samples=true"});
   });
-  test::expect_one_line(lattice, {"--set: fit.sgd.lattice_samples = true",
+  test::expect_one_line(lattice, {"override: fit.sgd.lattice_samples = true",
                                   "fit.target = \"rejection\"", "\"weighted\""});
 }
 
 TEST(Config, OverridesNeedAnEqualsSign) {
-  expect_refused("fit.seed", {"--set fit.seed", "key=value"});
-  expect_refused("=3", {"--set =3", "key=value"});
+  expect_refused("fit.seed", {"override fit.seed", "key=value"});
+  expect_refused("=3", {"override =3", "key=value"});
   expect_refused("fit.seed=1\nfit.solver=3", {"fit.seed", "a whole number"});
 }
 

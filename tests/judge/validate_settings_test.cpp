@@ -115,7 +115,7 @@ TEST(ValidateSettings, WhatIsWrongIsSaidInOneLine) {
   expect_one_line(message("[invariants\n"), {"v.toml:1", "not TOML"});
   const std::vector<std::string> overrides = {"invariants.samples"};
   expect_one_line(message_of<InputError>([&] { load_validate_settings(std::nullopt, overrides); }),
-                  {"--set invariants.samples", "key=value"});
+                  {"override invariants.samples", "key=value"});
   expect_one_line(message_of<IoError>([&] { load_validate_settings(folder / "none.toml", {}); }),
                   {"none.toml", "No such file"});
 }
