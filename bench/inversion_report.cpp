@@ -26,7 +26,7 @@ constexpr std::size_t samples = 1024, directions = 16, query_count = 2000;
 
 // What a shader is given: a lobe, and the stored matrix there in all digits and as it has it.
 struct Case {
-  GgxLobe lobe;
+  Lobe lobe;
   Eigen::Matrix3d exact, stored;  // S
 };
 
@@ -46,7 +46,7 @@ double hardware_weight(double weight) {
 // Interpolated in single precision from nodes kept in `memory`.
 std::vector<Case> look_ups(const Table& table, Precision memory, bool hardware_weights) {
   std::vector<Case> cases;
-  for (const GgxLobe& lobe : random_queries({}, query_count, 1, table.grid.alpha_min)) {
+  for (const Lobe& lobe : random_queries({}, query_count, 1, table.grid.alpha_min)) {
     const Interpolation corners = interpolation(table.grid, lobe);
     Case made{lobe, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
     Eigen::Matrix3f stored = Eigen::Matrix3f::Zero();
@@ -116,7 +116,7 @@ void print_order_of_interpolation(const Table& table) {
   LobeQuantiles quantiles(samples, directions, 32);
   std::vector<float> ggx(quantiles.size()), ltc(quantiles.size());
   std::vector<double> before, after;
-  for (const GgxLobe& lobe : random_queries({}, query_count, 1, table.grid.alpha_min)) {
+  for (const Lobe& lobe : random_queries({}, query_count, 1, table.grid.alpha_min)) {
     const LobeFrame frame(lobe);
     const Interpolation corners = interpolation(table.grid, lobe);
     Eigen::Matrix3d stored = Eigen::Matrix3d::Zero(), inverse = stored;

@@ -125,7 +125,7 @@ AlbedoRule::AlbedoRule(std::size_t points) {
   }
 }
 
-Albedo integrate_albedo(const GgxLobe& lobe, const AlbedoRule& rule) {
+Albedo integrate_albedo(const Lobe& lobe, const AlbedoRule& rule) {
   const Eigen::Vector3d v = lobe.omega_v();
   const Eigen::Vector3d stretched =
       Eigen::Vector3d(lobe.alpha_x * v.x(), lobe.alpha_y * v.y(), v.z()).normalized();

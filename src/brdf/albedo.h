@@ -42,6 +42,6 @@ class AlbedoRule {
 };
 
 // Both integrals of a lobe by the rule, in single precision with the sums in double.
-Albedo integrate_albedo(const GgxLobe& lobe, const AlbedoRule& rule);
+Albedo integrate_albedo(const Lobe& lobe, const AlbedoRule& rule);
 
 }  // namespace ltc

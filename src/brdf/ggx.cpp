@@ -13,23 +13,12 @@ double square(double x) {
   return x * x;
 }
 
-// A sine or cosine below the rounding error of its argument is zero.
-double without_rounding(double sine) {
-  return std::abs(sine) < 1e-15 ? 0.0 : sine;
-}
-
 // (alpha_x x)^2 + (alpha_y y)^2: z^2 times the slope variance along the direction.
 double stretched_sine_squared(double alpha_x, double alpha_y, const Eigen::Vector3d& omega) {
   return square(alpha_x * omega.x()) + square(alpha_y * omega.y());
 }
 
 }  // namespace
-
-Eigen::Vector3d GgxLobe::omega_v() const {
-  const double sin_theta = std::sin(theta_radians);
-  return {sin_theta * without_rounding(std::cos(phi_radians)),
-          sin_theta * without_rounding(std::sin(phi_radians)), std::cos(theta_radians)};
-}
 
 // With h = H/|H| equation (4) reads |H|^4 / (pi ax ay ((Hx/ax)^2 + (Hy/ay)^2 + Hz^2)^2): no
 // normalised z^2 = 1 - x^2 - y^2 is ever formed, and Hx, Hy keep their digits.
@@ -58,7 +47,7 @@ double ggx_g2(double alpha_x, double alpha_y, const Eigen::Vector3d& omega_v,
   return 1 / (1 + ggx_lambda(alpha_x, alpha_y, omega_v) + ggx_lambda(alpha_x, alpha_y, omega_l));
 }
 
-GgxSampler::GgxSampler(const GgxLobe& lobe)
+GgxSampler::GgxSampler(const Lobe& lobe)
     : alpha_x_(lobe.alpha_x),
       alpha_y_(lobe.alpha_y),
       omega_v_(lobe.omega_v()),

@@ -10,19 +10,9 @@
 
 #include <Eigen/Core>
 
+#include "brdf/lobe.h"
+
 namespace ltc {
-
-// One lobe: what light directions a viewer sees.
-struct GgxLobe {
-  double alpha_x = 1.0;        // > 0; meaningful down to 1e-12
-  double alpha_y = 1.0;        // > 0; meaningful down to 1e-12
-  double theta_radians = 0.0;  // elevation of the view direction, [0, pi/2)
-  double phi_radians = 0.0;    // azimuth of the view direction
-
-  // (sin theta cos phi, sin theta sin phi, cos theta), equation (3). A sine or cosine of phi that
-  // is zero but for the rounding of phi is zero, so that a view along an axis is exactly symmetric.
-  Eigen::Vector3d omega_v() const;
-};
 
 // The normal distribution function D, equation (4). `omega_h` need not have unit length; zero below
 // the horizon.
@@ -50,7 +40,7 @@ struct GgxSample {
 // Evaluates and samples one lobe; keeps what only depends on the view.
 class GgxSampler {
  public:
-  explicit GgxSampler(const GgxLobe& lobe);
+  explicit GgxSampler(const Lobe& lobe);
 
   const Eigen::Vector3d& omega_v() const { return omega_v_; }
   // Where a smooth surface would reflect to: (-vx, -vy, vz).

@@ -25,7 +25,7 @@ VisibleNormalLattice::VisibleNormalLattice(std::size_t count, double azimuth_shi
   }
 }
 
-void sample_weighted(const GgxLobe& lobe, const VisibleNormalLattice& lattice,
+void sample_weighted(const Lobe& lobe, const VisibleNormalLattice& lattice,
                      WeightedSamples& samples) {
   const GgxSampler sampler(lobe);
   const auto count = static_cast<Eigen::Index>(lattice.size());

@@ -38,7 +38,7 @@ struct WeightedSamples {
 };
 
 // One sample a lattice point. Reuses the memory of `samples`.
-void sample_weighted(const GgxLobe& lobe, const VisibleNormalLattice& lattice,
+void sample_weighted(const Lobe& lobe, const VisibleNormalLattice& lattice,
                      WeightedSamples& samples);
 
 }  // namespace ltc

@@ -34,7 +34,7 @@ std::array<Field, 7> fields_of(const EntryComparison& entry) {
            {"fresnel_difference", entry.fresnel_difference}}};
 }
 
-std::array<Field, 4> lobe_fields_of(const GgxLobe& lobe) {
+std::array<Field, 4> lobe_fields_of(const Lobe& lobe) {
   return {{{"alpha_x", lobe.alpha_x},
            {"alpha_y", lobe.alpha_y},
            {"theta_degrees", lobe.theta_radians / radians_per_degree},

@@ -89,7 +89,7 @@ bool names_parameters(const Arguments& arguments) {
 // What the stress runs go down to.
 constexpr double least_alpha = 1e-12;
 
-GgxLobe parse_lobe(const Arguments& arguments) {
+Lobe parse_lobe(const Arguments& arguments) {
   const std::array<std::pair<const char*, bool>, 3> parameters = {
       {{"--alpha-x and --alpha-y, or --roughness,", arguments.roughness.any()},
        {"--theta", arguments.theta_degrees.has_value()},
@@ -127,7 +127,7 @@ std::string start_table(const std::string& start) {
 }
 
 // M of --start; `entry` is that of the config's grid, where the lobe is one.
-Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const GgxLobe& lobe,
+Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const Lobe& lobe,
                             std::optional<std::size_t> entry, std::uint64_t seed,
                             std::optional<Layout> layout) {
   constexpr std::string_view given = "matrix=";
@@ -176,7 +176,7 @@ FitReport run_fit(const Arguments& arguments, const Config& config, const RunCon
   report.grid = config.grid;
   report.refined = config.refine.steps > 0;
   report.start = arguments.start;
-  GgxLobe lobe;
+  Lobe lobe;
   std::size_t seed_index = 0;
   if (arguments.entry.empty()) {
     lobe = parse_lobe(arguments);
@@ -236,7 +236,7 @@ void show_as_in(const Arguments& arguments, const RunContext& run) {
     }
   };
   if (arguments.entry.empty()) {
-    const GgxLobe lobe = parse_lobe(arguments);
+    const Lobe lobe = parse_lobe(arguments);
     report.lobe = named([&] { return stored_query(report.table, lobe, run); });
   } else {
     const std::size_t entry = parse_entry(arguments.entry, report.table.grid);

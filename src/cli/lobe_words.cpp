@@ -21,12 +21,12 @@ double degrees(double radians) {
 
 }  // namespace
 
-std::string lobe_line(const GgxLobe& lobe) {
+std::string lobe_line(const Lobe& lobe) {
   return fmt::format("alpha_x {:.6g}, alpha_y {:.6g}, theta {:.6g}, phi {:.6g}", lobe.alpha_x,
                      lobe.alpha_y, degrees(lobe.theta_radians), degrees(lobe.phi_radians));
 }
 
-std::string query_command(const std::string& file, const GgxLobe& lobe) {
+std::string query_command(const std::string& file, const Lobe& lobe) {
   return fmt::format(
       "ltcfit fit --as-in {} --alpha-x {:.9g} --alpha-y {:.9g} --theta {:.9g} --phi {:.9g}",
       shell_quoted(file), lobe.alpha_x, lobe.alpha_y, degrees(lobe.theta_radians),
@@ -52,7 +52,7 @@ std::string loss_words(double held_out_loss, double spread) {
                      100 * held_out_loss / spread, spread);
 }
 
-nlohmann::ordered_json lobe_json(const GgxLobe& lobe) {
+nlohmann::ordered_json lobe_json(const Lobe& lobe) {
   return {{"alpha_x", lobe.alpha_x},
           {"alpha_y", lobe.alpha_y},
           {"theta_degrees", degrees(lobe.theta_radians)},

@@ -14,11 +14,11 @@
 namespace ltc::cli {
 
 // "alpha_x 0.4, alpha_y 0.1, theta 60, phi 30", in degrees.
-std::string lobe_line(const GgxLobe& lobe);
+std::string lobe_line(const Lobe& lobe);
 
 // The command that shows what the table in a file gives for a lobe, and an LTC fitted to that very
 // lobe beside it: "ltcfit fit --as-in out/ltc.h5 --alpha-x 0.04 …"; and the one for its entry.
-std::string query_command(const std::string& file, const GgxLobe& lobe);
+std::string query_command(const std::string& file, const Lobe& lobe);
 std::string entry_command(const std::string& file, const Grid& grid, std::size_t flat);
 
 // Four lines: the rows behind `name`, then determinant and condition number.
@@ -27,7 +27,7 @@ std::string matrix_text(const std::string& name, const Eigen::Matrix3d& matrix);
 // "1.2e-02 held out, 13 % of the lobe's spread 9.2e-02".
 std::string loss_words(double held_out_loss, double spread);
 
-nlohmann::ordered_json lobe_json(const GgxLobe& lobe);
+nlohmann::ordered_json lobe_json(const Lobe& lobe);
 nlohmann::ordered_json matrix_json(const Eigen::Matrix3d& matrix);  // rows; null for NaN
 
 nlohmann::ordered_json range_json(const QueryRange& range);  // from and to, angles in degrees

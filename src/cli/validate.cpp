@@ -62,7 +62,7 @@ void validate(const Arguments& arguments, Files& files) {
       if (!check.reason.empty())
         check.reason = why_not_limited(report.table);
   }
-  report.query_command = [&](const GgxLobe& lobe) { return query_command(arguments.table, lobe); };
+  report.query_command = [&](const Lobe& lobe) { return query_command(arguments.table, lobe); };
   report.entry_command = [&](std::size_t flat) {
     return entry_command(arguments.table, report.table.grid, flat);
   };

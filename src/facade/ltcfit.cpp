@@ -38,7 +38,7 @@ double require_in(const char* name, double value, bool good, const char* allowed
   return value;
 }
 
-ltc::GgxLobe checked(const Lobe& lobe) {
+ltc::Lobe checked(const Lobe& lobe) {
   const auto roughness = [](const char* name, double alpha) {
     return require_in(name, alpha, alpha >= 1e-12 && alpha <= 1, "a number in [1e-12, 1]");
   };

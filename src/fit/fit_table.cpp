@@ -18,7 +18,7 @@ namespace ltc {
 namespace {
 
 // Seen from above, an isotropic lobe is round; its fit is but for the noise of its samples.
-Eigen::Matrix3d rounded_to_symmetry(const GgxLobe& lobe, Eigen::Matrix3d matrix) {
+Eigen::Matrix3d rounded_to_symmetry(const Lobe& lobe, Eigen::Matrix3d matrix) {
   if (lobe.alpha_x == lobe.alpha_y && looks_upward(lobe.theta_radians))
     matrix(0, 0) = matrix(1, 1) = (matrix(0, 0) + matrix(1, 1)) / 2;
   return matrix;

@@ -48,7 +48,7 @@ double L3Error::operator()(const Eigen::Matrix3d& matrix) const try {
   return std::numeric_limits<double>::infinity();  // no distribution
 }
 
-L3Error ggx_l3_error(const GgxLobe& lobe, double amplitude, const TargetLattice& lattice,
+L3Error ggx_l3_error(const Lobe& lobe, double amplitude, const TargetLattice& lattice,
                      const CosineSet& cosines) {
   const GgxSampler sampler(lobe);
   std::vector<Eigen::Vector3d> samples;

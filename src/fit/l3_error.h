@@ -45,7 +45,7 @@ class L3Error {
 
 // The distance to a GGX lobe of the given amplitude (the integral of its cosine-weighted BRDF),
 // with samples by visible normals.
-L3Error ggx_l3_error(const GgxLobe& lobe, double amplitude, const TargetLattice& lattice,
+L3Error ggx_l3_error(const Lobe& lobe, double amplitude, const TargetLattice& lattice,
                      const CosineSet& cosines);
 
 }  // namespace ltc

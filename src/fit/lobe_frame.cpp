@@ -7,7 +7,7 @@
 
 namespace ltc {
 
-LobeFrame::LobeFrame(const GgxLobe& lobe)
+LobeFrame::LobeFrame(const Lobe& lobe)
     : lobe(lobe), omega_v(lobe.omega_v()), rotation(mirror_rotation(omega_v)) {
   Eigen::Matrix3d unscaled;
   unscaled.col(0) << 2 * omega_v.z(), 0, 2 * omega_v.x();
@@ -26,7 +26,7 @@ Eigen::Matrix3d LobeFrame::from_matrix(const Eigen::Matrix3d& matrix) const {
          Eigen::Vector3d(1 / lobe.alpha_x, 1 / lobe.alpha_y, 1).asDiagonal();
 }
 
-FreeEntries free_entries(const GgxLobe& lobe) {
+FreeEntries free_entries(const Lobe& lobe) {
   const auto zeros = symmetry_zeros(lobe.theta_radians, lobe.phi_radians);
   FreeEntries free;
   for (int entry = 0; entry < 9; ++entry)

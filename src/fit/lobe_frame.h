@@ -19,12 +19,12 @@
 namespace ltc {
 
 struct LobeFrame {
-  explicit LobeFrame(const GgxLobe& lobe);
+  explicit LobeFrame(const Lobe& lobe);
 
   Eigen::Matrix3d to_matrix(const Eigen::Matrix3d& frame_matrix) const;  // P to M
   Eigen::Matrix3d from_matrix(const Eigen::Matrix3d& matrix) const;      // M to P
 
-  GgxLobe lobe;
+  Lobe lobe;
   Eigen::Vector3d omega_v;
   Eigen::Matrix3d rotation;     // Q
   Eigen::Matrix3d first_order;  // P0
@@ -33,6 +33,6 @@ struct LobeFrame {
 // Which entries of M (and of P alike) symmetry leaves free, equation (16) of Aakash et al. 2022:
 // true where an entry may differ from zero. Row-major.
 using FreeEntries = std::array<bool, 9>;
-FreeEntries free_entries(const GgxLobe& lobe);
+FreeEntries free_entries(const Lobe& lobe);
 
 }  // namespace ltc

@@ -53,7 +53,7 @@ struct FitResult {
 };
 
 struct FitRequest {
-  GgxLobe lobe;
+  Lobe lobe;
   // Seeds whatever is random about the fit of this lobe.
   std::uint64_t seed = 0;
   // Matrices to start from; empty for the solver's own starting points.

@@ -18,7 +18,7 @@ EqualLobes::EqualLobes(const Grid& grid) : phis_(grid.phi.size()) {
   std::map<std::pair<double, double>, std::size_t> group_of;
   for (std::size_t alpha = 0; alpha < grid.alpha.size(); ++alpha)
     for (std::size_t lambda = 0; lambda < grid.lambda.size(); ++lambda) {
-      const GgxLobe lobe = grid.lobe({alpha, lambda, 0, 0});
+      const Lobe lobe = grid.lobe({alpha, lambda, 0, 0});
       isotropic_.push_back(lobe.alpha_x == lobe.alpha_y);
       const auto [found, is_new] =
           group_of.try_emplace({lobe.alpha_x, lobe.alpha_y}, pairs_.size());

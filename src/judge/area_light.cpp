@@ -123,7 +123,7 @@ AreaLightJudge::AreaLightJudge(const AreaLightSettings& settings)
     : settings_(checked(settings)),
       lattices_{random_lattice(settings, 0), random_lattice(settings, 1)} {}
 
-void AreaLightJudge::set_lobe(const GgxLobe& lobe, std::uint64_t draw) {
+void AreaLightJudge::set_lobe(const Lobe& lobe, std::uint64_t draw) {
   for (std::size_t half = 0; half < 2; ++half)
     sample_weighted(lobe, lattices_[half], samples_[half]);
   draw_quads(lobe, draw);
@@ -142,7 +142,7 @@ void AreaLightJudge::set_lobe(const GgxLobe& lobe, std::uint64_t draw) {
   standard_error_ = std::sqrt(squared_errors / static_cast<double>(quads_.size()));
 }
 
-void AreaLightJudge::draw_quads(const GgxLobe& lobe, std::uint64_t draw) {
+void AreaLightJudge::draw_quads(const Lobe& lobe, std::uint64_t draw) {
   constexpr double full_turn = 2 * std::numbers::pi;
   const double scale = mean_distance(samples_[0], mean_offset(samples_[0]));
   const GgxSampler sampler(lobe);

@@ -43,7 +43,7 @@ class AreaLightJudge {
   // and draw get the same rectangles, whatever came before. Rectangles of one draw stand alike
   // about every lobe, so a mean over lobes wants another draw for each, as their errors then
   // cancel.
-  void set_lobe(const GgxLobe& lobe, std::uint64_t draw = 0);
+  void set_lobe(const Lobe& lobe, std::uint64_t draw = 0);
 
   // The error of the LTC of M, integrated exactly (equation 11 of Heitz et al. 2016), times
   // `amplitude` (the lobe's own if empty, so that only the lobe's shape counts). Light below the
@@ -60,7 +60,7 @@ class AreaLightJudge {
   double amplitude() const { return amplitude_; }  // of the lobe
 
  private:
-  void draw_quads(const GgxLobe& lobe, std::uint64_t draw);
+  void draw_quads(const Lobe& lobe, std::uint64_t draw);
 
   AreaLightSettings settings_;
   std::array<VisibleNormalLattice, 2> lattices_;

@@ -21,7 +21,7 @@ namespace {
 // matrices.
 using LobeBits = std::array<std::uint64_t, 23>;
 
-LobeBits bits_of(const GgxLobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+LobeBits bits_of(const Lobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   LobeBits bits;
   auto next = bits.begin();
   const auto add = [&](double value) { *next++ = std::bit_cast<std::uint64_t>(value); };
@@ -53,7 +53,7 @@ double difference(float a, float b) {
 
 }  // namespace
 
-EntryComparison compare_lobes(const GgxLobe& lobe, const Eigen::Matrix3d& a,
+EntryComparison compare_lobes(const Lobe& lobe, const Eigen::Matrix3d& a,
                               const Eigen::Matrix3d& b, HeldOutJudge& judge) {
   const bool both = a.allFinite() && b.allFinite();
   const Eigen::Matrix3d nearest_b = both ? align_to(a, b) : b;

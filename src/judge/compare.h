@@ -40,7 +40,7 @@ struct EntryComparison {
 };
 
 // What the matrices of A and B are to a lobe and to each other; no terms.
-EntryComparison compare_lobes(const GgxLobe& lobe, const Eigen::Matrix3d& a,
+EntryComparison compare_lobes(const Lobe& lobe, const Eigen::Matrix3d& a,
                               const Eigen::Matrix3d& b, HeldOutJudge& judge);
 
 // Throws InputError, naming the difference, unless the two grids are the same.

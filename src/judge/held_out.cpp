@@ -79,7 +79,7 @@ void HeldOutJudge::transform(const LobeFrame& frame, const Eigen::Matrix3d& matr
   }
 }
 
-void HeldOutJudge::set_lobe(const GgxLobe& lobe) {
+void HeldOutJudge::set_lobe(const Lobe& lobe) {
   frame_.emplace(lobe);
   sample_target(*frame_);
   cells_.resize(directions_.size());
@@ -106,7 +106,7 @@ double HeldOutJudge::loss(const Eigen::Matrix3d& matrix) {
   return distance / static_cast<double>(directions_.size());
 }
 
-PairJudgement HeldOutJudge::judge_pair(const GgxLobe& lobe, const Eigen::Matrix3d& a,
+PairJudgement HeldOutJudge::judge_pair(const Lobe& lobe, const Eigen::Matrix3d& a,
                                        const Eigen::Matrix3d& b) {
   const LobeFrame frame(lobe);
   sample_target(frame);

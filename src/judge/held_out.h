@@ -38,7 +38,7 @@ class HeldOutJudge {
                         std::uint64_t seed = 20220712);
 
   // Sets the lobe that loss and spread judge against; before either.
-  void set_lobe(const GgxLobe& lobe);
+  void set_lobe(const Lobe& lobe);
 
   // Equation (9) of Aakash et al. 2022 between the lobe and the LTC of M; NaN for a matrix that is
   // not finite.
@@ -50,7 +50,7 @@ class HeldOutJudge {
 
   // The same figures for two matrices at once, and the distance between their LTC. Independent of
   // set_lobe, and keeps nothing: sets are sorted one direction at a time and stay in the cache.
-  PairJudgement judge_pair(const GgxLobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
+  PairJudgement judge_pair(const Lobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 
  private:
   struct Points {  // as offsets from the mirror direction, in its frame

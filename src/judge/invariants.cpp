@@ -155,7 +155,7 @@ class Checks {
 
   InvariantResult zeros() const {
     return judged("zeros of equation 16", limits_.zero, finite_, [&](std::size_t flat) {
-      const GgxLobe lobe = lobe_at(flat);
+      const Lobe lobe = lobe_at(flat);
       return symmetry_zeros(lobe.theta_radians, lobe.phi_radians)
           .select(table_.stored_at(flat).cwiseAbs(), 0.0)
           .maxCoeff();
@@ -256,7 +256,7 @@ class Checks {
   }
 
  private:
-  GgxLobe lobe_at(std::size_t flat) const { return table_.grid.lobe(flat); }
+  Lobe lobe_at(std::size_t flat) const { return table_.grid.lobe(flat); }
 
   // Measured once, when first asked for.
   const LobeMeasures& lobes() {

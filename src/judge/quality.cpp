@@ -45,7 +45,7 @@ HeldOutJudge node_judge(const QualitySettings& settings, std::size_t flat) {
 
 // By judge_pair, which holds one direction at a time: what set_lobe would keep of all of them is
 // megabytes, and asking the system for them anew for every lobe takes as long as the judging.
-double relative_loss(HeldOutJudge judge, const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
+double relative_loss(HeldOutJudge judge, const Lobe& lobe, const Eigen::Matrix3d& matrix) {
   const PairJudgement judgement = judge.judge_pair(lobe, matrix, matrix);
   return judgement.loss_a / judgement.spread;
 }
@@ -126,7 +126,7 @@ AreaLightJudge area_light_judge(const QualitySettings& settings) {
   return AreaLightJudge({settings.quads, settings.quad_samples, settings.seed});
 }
 
-Answer ask(const Table& table, const GgxLobe& lobe) {
+Answer ask(const Table& table, const Lobe& lobe) {
   const LookUp found = look_up(table, lobe);
   const QueryState state = !Reduction(table.grid).covers(lobe) ? QueryState::outside
                            : !found.matrix.allFinite()         ? QueryState::missing
@@ -145,7 +145,7 @@ FitSettings floor_fit_settings() {
 std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alpha_min,
                                     const RunContext& run) {
   check(settings);
-  const std::vector<GgxLobe> lobes =
+  const std::vector<Lobe> lobes =
       random_queries(settings.range, settings.queries, settings.seed, alpha_min);
   std::vector<QueryFloor> floors(lobes.size());
   const std::unique_ptr<Solver> solver = make_solver(settings.floor_fit);

@@ -47,7 +47,7 @@ struct QualitySettings {
 
 // A lobe that is asked for, and the LTC fitted to it.
 struct QueryFloor {
-  GgxLobe lobe;
+  Lobe lobe;
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   double relative_loss = 0;
   AreaLightError area_light;  // with the lobe's own amplitude
@@ -70,7 +70,7 @@ struct Answer {
   QueryState state = QueryState::judged;
   LookUp found;
 };
-Answer ask(const Table& table, const GgxLobe& lobe);
+Answer ask(const Table& table, const Lobe& lobe);
 
 // The judges of a query. Directions drawn once for all would err alike for every lobe, and the mean
 // with them: 32 of them by 4 %, and 16 rectangles by 6 %. So every lobe has its own, the same

@@ -66,7 +66,7 @@ void set_noise(QualityReport& report) {
 struct BandedParameter {
   std::string name, unit;
   std::vector<double> edges;
-  std::function<double(const GgxLobe&)> value;
+  std::function<double(const Lobe&)> value;
 };
 
 std::vector<BandedParameter> banded_parameters() {
@@ -76,21 +76,21 @@ std::vector<BandedParameter> banded_parameters() {
       {"perceptual roughness",
        "",
        {0.1, 0.2, 0.3, 0.4, end},
-       [](const GgxLobe& lobe) { return std::sqrt(std::max(lobe.alpha_x, lobe.alpha_y)); }},
+       [](const Lobe& lobe) { return std::sqrt(std::max(lobe.alpha_x, lobe.alpha_y)); }},
       {"theta",
        "°",
        {0, 30, 60, 75, end},
-       [=](const GgxLobe& lobe) { return degrees(lobe.theta_radians); }},
+       [=](const Lobe& lobe) { return degrees(lobe.theta_radians); }},
       {"lambda",
        "",
        {0, 0.1, 0.25, 0.5, end},
-       [](const GgxLobe& lobe) {
+       [](const Lobe& lobe) {
          return std::min(lobe.alpha_x, lobe.alpha_y) / std::max(lobe.alpha_x, lobe.alpha_y);
        }},
       {"phi",
        "°",
        {0, 30, 60, end},
-       [=](const GgxLobe& lobe) { return degrees(lobe.phi_radians); }},
+       [=](const Lobe& lobe) { return degrees(lobe.phi_radians); }},
   };
 }
 

@@ -16,7 +16,7 @@ bool is_range(const QueryRange& range) {
          range.cos_theta_first <= range.cos_theta_last && range.phi_first <= range.phi_last;
 }
 
-QueryComparison compare_query(const Table& a, const Table& b, const GgxLobe& lobe,
+QueryComparison compare_query(const Table& a, const Table& b, const Lobe& lobe,
                               std::size_t query, const QualitySettings& settings,
                               AreaLightJudge& area_light) {
   const Answer from_a = ask(a, lobe), from_b = ask(b, lobe);
@@ -61,7 +61,7 @@ std::optional<QueryRange> common_range(const Grid& a, const Grid& b) {
 std::vector<QueryComparison> compare_queries(const Table& a, const Table& b,
                                              const QualitySettings& settings,
                                              const RunContext& run) {
-  const std::vector<GgxLobe> lobes = random_queries(settings.range, settings.queries, settings.seed,
+  const std::vector<Lobe> lobes = random_queries(settings.range, settings.queries, settings.seed,
                                                     std::max(a.grid.alpha_min, b.grid.alpha_min));
   std::vector<QueryComparison> queries(lobes.size());
   const AreaLightJudge prototype = area_light_judge(settings);

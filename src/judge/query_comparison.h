@@ -17,7 +17,7 @@ namespace ltc {
 
 // One lobe that is asked of both tables.
 struct QueryComparison {
-  GgxLobe lobe;
+  Lobe lobe;
   QueryState state_a = QueryState::judged, state_b = QueryState::judged;
   EntryComparison lobes;  // of the two look-ups; all NaN unless both are judged
   // Errors under area lights, shares of the light that the lobe reflects: with the lobe's own

@@ -84,7 +84,7 @@ LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, s
   return fit;
 }
 
-LobeFit fit_lobe(const Config& config, const GgxLobe& lobe, std::uint64_t seed,
+LobeFit fit_lobe(const Config& config, const Lobe& lobe, std::uint64_t seed,
                  const std::optional<Eigen::Matrix3d>& start, const RunContext& run) {
   FitRequest request;
   request.lobe = lobe;
@@ -103,7 +103,7 @@ LobeFit fit_lobe(const Config& config, const GgxLobe& lobe, std::uint64_t seed,
   return fit;
 }
 
-Eigen::Matrix3d starting_matrix(StartKind kind, const GgxLobe& lobe, std::uint64_t seed) {
+Eigen::Matrix3d starting_matrix(StartKind kind, const Lobe& lobe, std::uint64_t seed) {
   const LobeFrame frame(lobe);
   TargetSamples target;
   sample_weighted_target(frame, make_target_lattice(4096, 0.3), target);
@@ -120,7 +120,7 @@ Eigen::Matrix3d starting_matrix(StartKind kind, const GgxLobe& lobe, std::uint64
   throw InputError("unknown starting point");
 }
 
-GradientCheck check_lobe_gradient(const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
+GradientCheck check_lobe_gradient(const Lobe& lobe, const Eigen::Matrix3d& matrix) {
   const LobeFrame frame(lobe);
   const CosineSet cosines = make_cosine_set(check_samples);
   std::vector<Eigen::Vector3d> omega_o(cosines.size());

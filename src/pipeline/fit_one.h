@@ -20,7 +20,7 @@ namespace ltc {
 // All that is known of one lobe's fit. Matrices are M, but for `finished.stored`. Where the status
 // says that there are no values, matrices and losses are NaN.
 struct LobeFit {
-  GgxLobe lobe;
+  Lobe lobe;
   std::vector<WatchedFit> fits;  // the lobe's own fit, then the sweeps
   FittedEntry fitted;            // as the solver left it; `loss` on the solver's own samples
   bool start_abandoned = false;  // for the solver's own, see FitResult
@@ -45,13 +45,13 @@ LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, s
                         const RunContext& run);
 
 // A lobe by itself, from `start` (M) or else from the solver's own starting points.
-LobeFit fit_lobe(const Config& config, const GgxLobe& lobe, std::uint64_t seed,
+LobeFit fit_lobe(const Config& config, const Lobe& lobe, std::uint64_t seed,
                  const std::optional<Eigen::Matrix3d>& start, const RunContext& run = {});
 
 // M of a starting point of the solvers (starting_points.h); `seed` is that of a random one.
-Eigen::Matrix3d starting_matrix(StartKind kind, const GgxLobe& lobe, std::uint64_t seed);
+Eigen::Matrix3d starting_matrix(StartKind kind, const Lobe& lobe, std::uint64_t seed);
 
 // Checks the gradient that descents follow, at M, on a small sample set of the lobe.
-GradientCheck check_lobe_gradient(const GgxLobe& lobe, const Eigen::Matrix3d& matrix);
+GradientCheck check_lobe_gradient(const Lobe& lobe, const Eigen::Matrix3d& matrix);
 
 }  // namespace ltc

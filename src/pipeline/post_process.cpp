@@ -7,7 +7,7 @@
 
 namespace ltc {
 
-PostProcessed post_process(const GgxLobe& lobe, Storage storage, const Eigen::Matrix3d& aligned) {
+PostProcessed post_process(const Lobe& lobe, Storage storage, const Eigen::Matrix3d& aligned) {
   Eigen::Matrix3d matrix = aligned;
   PostProcessed result;
   result.zeroed = enforce_symmetry(lobe.theta_radians, lobe.phi_radians, matrix);

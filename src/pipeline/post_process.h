@@ -17,6 +17,6 @@ struct PostProcessed {
 
 // Equation (16) and a unit third column, and from M to what a table stores. `aligned` is M after
 // alignment; throws as normalise does.
-PostProcessed post_process(const GgxLobe& lobe, Storage storage, const Eigen::Matrix3d& aligned);
+PostProcessed post_process(const Lobe& lobe, Storage storage, const Eigen::Matrix3d& aligned);
 
 }  // namespace ltc

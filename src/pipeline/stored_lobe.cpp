@@ -62,7 +62,7 @@ StoredLobe stored_entry(const Table& table, std::size_t flat, const RunContext& 
   return stored;
 }
 
-StoredLobe stored_query(const Table& table, const GgxLobe& lobe, const RunContext& run) {
+StoredLobe stored_query(const Table& table, const Lobe& lobe, const RunContext& run) {
   const Reduction reduction(table.grid);
   const Interpolation taken = interpolation(table.grid, reduction.fold(lobe).lobe);
   StoredLobe stored;

@@ -23,7 +23,7 @@ struct TakenNode {
 
 // Matrices and terms are those of the table; NaN where its file does not hold them.
 struct StoredLobe {
-  GgxLobe lobe;
+  Lobe lobe;
   std::optional<std::size_t> entry;  // of the table's grid, where it is asked for as one
   std::vector<TakenNode> nodes;      // of a look-up, largest weight first; none for an entry
   bool within_axes = true;           // otherwise the look-up was clamped to them
@@ -41,6 +41,6 @@ StoredLobe stored_entry(const Table& table, std::size_t flat, const RunContext& 
 
 // What a renderer gets for the lobe: the look-up of table/lookup.h. Throws InputError, naming the
 // first entry that the look-up needs and that has no values; Interrupted.
-StoredLobe stored_query(const Table& table, const GgxLobe& lobe, const RunContext& run);
+StoredLobe stored_query(const Table& table, const Lobe& lobe, const RunContext& run);
 
 }  // namespace ltc

@@ -58,7 +58,7 @@ bool complete(const Interpolation& corners, const std::vector<bool>& has_values)
 
 // The lobes that a table can be asked for, cell by cell: sorted by the cell's first node, which
 // tells the others, and within a cell as they came.
-std::vector<std::size_t> ordered_by_cell(const TableNodes& nodes, const std::vector<GgxLobe>& lobes,
+std::vector<std::size_t> ordered_by_cell(const TableNodes& nodes, const std::vector<Lobe>& lobes,
                                          const Reduction& reduction, const RunContext& run) {
   const Grid& grid = nodes.grid;
   const std::size_t left_out = grid.size();
@@ -90,7 +90,7 @@ QuerySystem::QuerySystem(const TableNodes& nodes, const WeightedLobes& asked,
   corners_of_node_.resize(node_count_);
   queries_.reserve(order.size());
   for (const std::size_t i : order) {
-    const GgxLobe folded = reduction.fold(asked.lobes[i]).lobe;
+    const Lobe folded = reduction.fold(asked.lobes[i]).lobe;
     const Interpolation corners = interpolation(nodes.grid, folded);
     if (cells_.empty() || cells_.back().nodes != corners.nodes) {
       run.throw_if_stopped();

@@ -53,7 +53,7 @@ class QuerySystem {
 
  private:
   struct Query {
-    GgxLobe lobe;
+    Lobe lobe;
     std::array<double, 16> weights;  // of the cell's nodes
     double weight;                   // c_p
     std::size_t set;                 // of samples and directions

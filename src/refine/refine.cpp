@@ -61,7 +61,7 @@ std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& h
                                   sizeof(FreeEntries) + 8 * sizeof(Vector9) + 2 * sizeof(Matrix9);
   return QuerySystem::memory_bytes(settings.sampling, refined_on, nodes, nodes) +
          QuerySystem::memory_bytes(settings.sampling, held_out, held_out, nodes) +
-         (refined_on + held_out) * (sizeof(GgxLobe) + sizeof(double)) + nodes * of_node;
+         (refined_on + held_out) * (sizeof(Lobe) + sizeof(double)) + nodes * of_node;
 }
 
 RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,

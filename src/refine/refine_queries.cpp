@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t held_out_seed = 20220712;
 
-void add(const std::vector<GgxLobe>& more, double share, WeightedLobes& queries) {
+void add(const std::vector<Lobe>& more, double share, WeightedLobes& queries) {
   queries.lobes.insert(queries.lobes.end(), more.begin(), more.end());
   queries.weights.insert(queries.weights.end(), more.size(),
                          share / static_cast<double>(more.size()));
@@ -20,20 +20,20 @@ void add(const std::vector<GgxLobe>& more, double share, WeightedLobes& queries)
 
 // `count` lobes, the ranges in turn, each with what `draw` makes of it for its own part.
 template <typename Draw>
-std::vector<GgxLobe> from_all(const std::vector<QueryRange>& asked, std::size_t count,
+std::vector<Lobe> from_all(const std::vector<QueryRange>& asked, std::size_t count,
                               Draw&& draw) {
-  std::vector<GgxLobe> lobes;
+  std::vector<Lobe> lobes;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const std::size_t part = (count + asked.size() - 1 - i) / asked.size();
-    const std::vector<GgxLobe> more = draw(asked[i], part, i);
+    const std::vector<Lobe> more = draw(asked[i], part, i);
     lobes.insert(lobes.end(), more.begin(), more.end());
   }
   return lobes;
 }
 
 // Uniform in the interpolation coordinates: no cell without a query.
-std::vector<GgxLobe> lobes_of_table(const Grid& grid, std::size_t count) {
-  std::vector<GgxLobe> lobes;
+std::vector<Lobe> lobes_of_table(const Grid& grid, std::size_t count) {
+  std::vector<Lobe> lobes;
   for (const std::array<double, 4>& u : lattice_points(0, count)) {
     const double alpha = grid.alpha.value(u[0]);
     lobes.push_back({std::max(alpha, grid.alpha_min),
@@ -43,8 +43,8 @@ std::vector<GgxLobe> lobes_of_table(const Grid& grid, std::size_t count) {
   return lobes;
 }
 
-std::vector<GgxLobe> lobes_of_nodes(const Grid& grid, const std::vector<bool>& has_values) {
-  std::vector<GgxLobe> lobes;
+std::vector<Lobe> lobes_of_nodes(const Grid& grid, const std::vector<bool>& has_values) {
+  std::vector<Lobe> lobes;
   for (std::size_t flat = 0; flat < grid.size(); ++flat)
     if (has_values[flat])
       lobes.push_back(grid.lobe(flat));

@@ -20,7 +20,7 @@ struct TableNodes {
 };
 
 struct WeightedLobes {
-  std::vector<GgxLobe> lobes;
+  std::vector<Lobe> lobes;
   std::vector<double> weights;  // c_p
 };
 

@@ -45,7 +45,7 @@ double weighed(Technique technique, const Contribution& c) {
 // One point's integral: what both techniques need to know.
 class Integrand {
  public:
-  Integrand(const GgxLobe& lobe, double f0, const RectangleLight& light)
+  Integrand(const Lobe& lobe, double f0, const RectangleLight& light)
       : lobe_(lobe),
         f0_(f0),
         light_(light),
@@ -100,7 +100,7 @@ class Integrand {
     return distance * distance * distance / (area_ * height_);
   }
 
-  GgxLobe lobe_;
+  Lobe lobe_;
   double f0_;
   RectangleLight light_;
   GgxSampler sampler_;
@@ -121,7 +121,7 @@ bool is_seen(const RectangleLight& light) {
 
 }  // namespace
 
-double ltc_radiance(const Table& table, const GgxLobe& lobe, double f0,
+double ltc_radiance(const Table& table, const Lobe& lobe, double f0,
                     const RectangleLight& light) {
   const LookUp found = look_up(table, lobe);
   const double albedo = f0 * found.amplitude + (1 - f0) * found.fresnel;
@@ -136,7 +136,7 @@ double ltc_radiance(const Table& table, const GgxLobe& lobe, double f0,
 ReferenceIntegrator::ReferenceIntegrator(std::size_t samples, Technique technique)
     : technique_(technique), lattice_(samples) {}
 
-double ReferenceIntegrator::radiance(const GgxLobe& lobe, double f0, const RectangleLight& light,
+double ReferenceIntegrator::radiance(const Lobe& lobe, double f0, const RectangleLight& light,
                                      const Shifts& shifts) const {
   if (!is_seen(light))
     return 0;

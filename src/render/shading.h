@@ -23,7 +23,7 @@ struct SphereMaterial {
 // (F0 amplitude + (1 - F0) fresnel) times the integral of the LTC over the light (equation 11 of
 // Heitz et al. 2016). The light is cut off at the point's horizon first, and then, transformed, at
 // that of the cosine. NaN where the table has no value or a matrix without an inverse.
-double ltc_radiance(const Table& table, const GgxLobe& lobe, double f0,
+double ltc_radiance(const Table& table, const Lobe& lobe, double f0,
                     const RectangleLight& light);
 
 // Which samples an estimate is made of. Every choice has the same mean.
@@ -42,7 +42,7 @@ class ReferenceIntegrator {
   // Independent uniforms on [0, 1) that shift the lattices: estimates with independent shifts are
   // independent, each with the exact radiance as its mean.
   using Shifts = std::array<double, 4>;
-  double radiance(const GgxLobe& lobe, double f0, const RectangleLight& light,
+  double radiance(const Lobe& lobe, double f0, const RectangleLight& light,
                   const Shifts& shifts) const;
 
  private:

@@ -247,7 +247,7 @@ LobeWindow hemisphere_window() {
   return {Eigen::Matrix3d::Identity(), 0, 0, std::numbers::sqrt2, true};
 }
 
-LobeWindow choose_window(const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
+LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix) {
   LobeWindow window{LobeFrame(lobe).rotation, 0, 0, 0, false};
   Bounds bounds;
   bounds.include_bulk(ggx_points(GgxSampler(lobe), window));
@@ -260,7 +260,7 @@ LobeWindow choose_window(const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
   return window.half_width > widest_zoom ? hemisphere_window() : window;
 }
 
-Field ggx_density(const GgxLobe& lobe, const LobeWindow& window, std::size_t side) {
+Field ggx_density(const Lobe& lobe, const LobeWindow& window, std::size_t side) {
   const GgxSampler sampler(lobe);
   const double amplitude = integrate_albedo(lobe, AlbedoRule()).amplitude;
   return mean_density(
@@ -274,7 +274,7 @@ Field ggx_density(const GgxLobe& lobe, const LobeWindow& window, std::size_t sid
       window, sampler.mirror(), side);
 }
 
-Field ltc_density(const Eigen::Matrix3d& matrix, const GgxLobe& lobe, const LobeWindow& window,
+Field ltc_density(const Eigen::Matrix3d& matrix, const Lobe& lobe, const LobeWindow& window,
                   std::size_t side) {
   if (!is_drawable(matrix))
     return {side, side, std::vector<float>(side * side, no_value)};

@@ -31,14 +31,14 @@ LobeWindow hemisphere_window();
 
 // The hemisphere for broad lobes. For others a square about the mirror direction that holds at
 // least nine tenths of the GGX lobe and, where `matrix` is finite, of its LTC.
-LobeWindow choose_window(const GgxLobe& lobe, const Eigen::Matrix3d& matrix);
+LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix);
 
 // Mean densities per steradian of the pixels of a window, `side` by `side`, row by row from the
 // top. Each lobe integrates to one over the hemisphere (GGX) or sphere (LTC). NaN for pixels whose
 // centre is below the horizon in a picture of the hemisphere; all NaN for an LTC whose matrix is
 // singular or not finite. A ridge thinner than a pixel has its mass in the pixels that it crosses.
-picture::Field ggx_density(const GgxLobe& lobe, const LobeWindow& window, std::size_t side);
-picture::Field ltc_density(const Eigen::Matrix3d& matrix, const GgxLobe& lobe,
+picture::Field ggx_density(const Lobe& lobe, const LobeWindow& window, std::size_t side);
+picture::Field ltc_density(const Eigen::Matrix3d& matrix, const Lobe& lobe,
                            const LobeWindow& window, std::size_t side);
 
 }  // namespace ltc

@@ -85,13 +85,13 @@ picture::Scale density_scale(const Field& ggx, const Field& ltc) {
   return picture::Scale::logarithmic(std::clamp(bulk, 1e-5 * peak, 0.03 * peak), peak);
 }
 
-std::string lobe_caption(const GgxLobe& lobe) {
+std::string lobe_caption(const Lobe& lobe) {
   return fmt::format("alpha_x {:.4g}, alpha_y {:.4g}, θ {:.4g}°, φ {:.4g}°", lobe.alpha_x,
                      lobe.alpha_y, lobe.theta_radians / radians_per_degree,
                      lobe.phi_radians / radians_per_degree);
 }
 
-picture::PanelRow lobe_panels(const GgxLobe& lobe, const Eigen::Matrix3d& matrix,
+picture::PanelRow lobe_panels(const Lobe& lobe, const Eigen::Matrix3d& matrix,
                               picture::Words words, std::size_t side) {
   const LobeWindow window = choose_window(lobe, matrix);
   const Field ggx = ggx_density(lobe, window, side);

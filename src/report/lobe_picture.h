@@ -19,10 +19,10 @@ inline constexpr double sharp_peak = 12;
 picture::Scale density_scale(const picture::Field& ggx, const picture::Field& ltc);
 
 // "alpha_x 0.4, alpha_y 0.1, θ 60°, φ 30°".
-std::string lobe_caption(const GgxLobe& lobe);
+std::string lobe_caption(const Lobe& lobe);
 
 // Three panels. `words` are written above and below, with a line on the projection.
-picture::PanelRow lobe_panels(const GgxLobe& lobe, const Eigen::Matrix3d& matrix,
+picture::PanelRow lobe_panels(const Lobe& lobe, const Eigen::Matrix3d& matrix,
                               picture::Words words, std::size_t side = 256);
 
 // The panels, and a chart below them if it has a series.

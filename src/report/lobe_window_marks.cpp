@@ -95,7 +95,7 @@ void add_edge_ticks(const LobeWindow& window, std::vector<picture::Overlay>& mar
 
 }  // namespace
 
-std::vector<picture::Overlay> window_marks(const LobeWindow& window, const GgxLobe& lobe) {
+std::vector<picture::Overlay> window_marks(const LobeWindow& window, const Lobe& lobe) {
   std::vector<picture::Overlay> marks;
   const GgxSampler sampler(lobe);
   if (window.hemisphere) {

@@ -13,7 +13,7 @@ namespace ltc {
 
 // Rings of equal elevation over the hemisphere, degrees along the edges of a zoomed window, and
 // crosses at the mirror direction.
-std::vector<picture::Overlay> window_marks(const LobeWindow& window, const GgxLobe& lobe);
+std::vector<picture::Overlay> window_marks(const LobeWindow& window, const Lobe& lobe);
 
 // One line: the projection and what the marks are.
 std::string window_words(const LobeWindow& window);

@@ -25,7 +25,7 @@ struct Validation {
   std::optional<QualityReport> quality;  // nothing where it was not asked for
   std::vector<ThresholdCheck> thresholds;
   // What a person types to look into a lobe or an entry.
-  std::function<std::string(const GgxLobe&)> query_command = [](const GgxLobe&) { return ""; };
+  std::function<std::string(const Lobe&)> query_command = [](const Lobe&) { return ""; };
   std::function<std::string(std::size_t)> entry_command = [](std::size_t) { return ""; };
 };
 

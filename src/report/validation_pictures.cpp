@@ -57,7 +57,7 @@ NamedPicture map_of(const Validation& validation, const std::vector<double>& val
 }
 
 struct LobeToDraw {
-  GgxLobe lobe;
+  Lobe lobe;
   Eigen::Matrix3d matrix;
   std::string title, words;
   std::string command;  // that looks into it

@@ -127,7 +127,7 @@ double GradedJudge::distance_to_lobe(const Points& points) {
   return sum / static_cast<double>(directions_.size());
 }
 
-void GradedJudge::set_lobe(const GgxLobe& lobe) {
+void GradedJudge::set_lobe(const Lobe& lobe) {
   frame_.emplace(lobe);
   const GgxSampler sampler(lobe);
   sample_lobe(sampler, of_lobe_, points_);

@@ -33,7 +33,7 @@ class GradedJudge {
   GradedJudge(std::size_t samples, std::size_t directions, std::uint64_t seed);
 
   // Sets the lobe that the others judge against; before either.
-  void set_lobe(const GgxLobe& lobe);
+  void set_lobe(const Lobe& lobe);
 
   // Equation (9) of Aakash et al. 2022 between the lobe and the LTC of M; NaN for a matrix that is
   // not finite, or that sends a sample nowhere.

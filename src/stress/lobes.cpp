@@ -41,7 +41,7 @@ double random_phi(Random& random) {
 
 }  // namespace
 
-GgxLobe StressLobe::lobe() const {
+Lobe StressLobe::lobe() const {
   return {alpha, lambda * alpha, radians_of_degrees(theta_degrees),
           radians_of_degrees(phi_degrees)};
 }

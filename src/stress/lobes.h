@@ -18,7 +18,7 @@ struct StressLobe {
   bool on_grid = false;  // of stress_grid, else drawn at random
 
   // Bit for bit what `ltcfit fit` makes of the same numbers.
-  GgxLobe lobe() const;
+  Lobe lobe() const;
 };
 
 // Node values of a regular grid, ascending.

@@ -41,7 +41,7 @@ class Runner {
 
   // All fits of a lobe; fills the lobe's place of `run`.
   void fit(std::size_t index, Worker& worker, StressRun& run) const {
-    const GgxLobe lobe = task_.lobes[index].lobe();
+    const Lobe lobe = task_.lobes[index].lobe();
     worker.judge.set_lobe(lobe);
     run.spread[index] = worker.judge.spread();
     std::vector<StressFit> fits;
@@ -59,7 +59,7 @@ class Runner {
   }
 
  private:
-  FitRequest request(const GgxLobe& lobe, const FitSettings& settings) const {
+  FitRequest request(const Lobe& lobe, const FitSettings& settings) const {
     FitRequest request;
     request.lobe = lobe;
     request.seed = stress_seed(settings);
@@ -67,7 +67,7 @@ class Runner {
     return request;
   }
 
-  StressFit fit_from(std::size_t start, const GgxLobe& lobe, Worker& worker) const {
+  StressFit fit_from(std::size_t start, const Lobe& lobe, Worker& worker) const {
     FitRequest asked = request(lobe, task_.fit);
     const StressStart kind = stress_starts()[start].start;
     if (const auto matrix = start_matrix(kind, lobe, asked.seed))

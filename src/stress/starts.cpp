@@ -80,7 +80,7 @@ std::span<const StressStartKind> stress_starts() {
   return all_starts;
 }
 
-std::optional<Eigen::Matrix3d> start_matrix(StressStart start, const GgxLobe& lobe,
+std::optional<Eigen::Matrix3d> start_matrix(StressStart start, const Lobe& lobe,
                                             std::uint64_t seed) {
   switch (start) {
     case StressStart::solver_choice:

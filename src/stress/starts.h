@@ -44,7 +44,7 @@ struct StressStartKind {
 std::span<const StressStartKind> stress_starts();
 
 // M to start from; none where the solver shall choose. `seed` is that of what is random.
-std::optional<Eigen::Matrix3d> start_matrix(StressStart start, const GgxLobe& lobe,
+std::optional<Eigen::Matrix3d> start_matrix(StressStart start, const Lobe& lobe,
                                             std::uint64_t seed);
 
 }  // namespace ltc

@@ -73,9 +73,9 @@ std::vector<std::size_t> Grid::neighbours(std::size_t flat) const {
   return result;
 }
 
-GgxLobe Grid::lobe(const NodeIndex& node) const {
+Lobe Grid::lobe(const NodeIndex& node) const {
   const double larger = alpha.nodes[node.alpha];  // of the two, or alpha_x
-  GgxLobe lobe;
+  Lobe lobe;
   lobe.alpha_x = std::max(larger, alpha_min);
   const double second = lambda.nodes[node.lambda];
   lobe.alpha_y = std::max(layout == Layout::alphax_alphay ? second : second * larger, alpha_min);

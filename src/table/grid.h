@@ -69,8 +69,8 @@ struct Grid {
   // All of these, axis by axis: the nodes that share a face with this one.
   std::vector<std::size_t> neighbours(std::size_t flat) const;
 
-  GgxLobe lobe(const NodeIndex& node) const;
-  GgxLobe lobe(std::size_t flat) const { return lobe(node(flat)); }
+  Lobe lobe(const NodeIndex& node) const;
+  Lobe lobe(std::size_t flat) const { return lobe(node(flat)); }
 
   bool operator==(const Grid&) const = default;
 };

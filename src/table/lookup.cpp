@@ -24,7 +24,7 @@ Bracket bracket(const Axis& axis, double value) {
 }
 
 // What the query's roughness is to the table: as at the nodes, never below alpha_min.
-GgxLobe bounded_below(GgxLobe lobe, double alpha_min) {
+Lobe bounded_below(Lobe lobe, double alpha_min) {
   lobe.alpha_x = std::max(lobe.alpha_x, alpha_min);
   lobe.alpha_y = std::max(lobe.alpha_y, alpha_min);
   return lobe;
@@ -32,7 +32,7 @@ GgxLobe bounded_below(GgxLobe lobe, double alpha_min) {
 
 }  // namespace
 
-Interpolation interpolation(const Grid& grid, const GgxLobe& folded) {
+Interpolation interpolation(const Grid& grid, const Lobe& folded) {
   // The roughness as asked for: `alpha_min` bounds the lobe at a node, not the place of a node, so
   // one below it belongs between the nodes that its own value or ratio names.
   const std::array brackets{
@@ -54,7 +54,7 @@ Interpolation interpolation(const Grid& grid, const GgxLobe& folded) {
   return result;
 }
 
-LookUp look_up(const Table& table, const GgxLobe& lobe) {
+LookUp look_up(const Table& table, const Lobe& lobe) {
   const FoldedLobe folded = Reduction(table.grid).fold(lobe);
   const Interpolation corners = interpolation(table.grid, folded.lobe);
   Eigen::Matrix3d stored = Eigen::Matrix3d::Zero();
@@ -68,7 +68,7 @@ LookUp look_up(const Table& table, const GgxLobe& lobe) {
     result.amplitude += weight * table.amplitude[node];
     result.fresnel += weight * table.fresnel[node];
   }
-  const GgxLobe bounded = bounded_below(folded.lobe, table.grid.alpha_min);
+  const Lobe bounded = bounded_below(folded.lobe, table.grid.alpha_min);
   result.matrix = folded.unfold * matrix_from_stored(table.storage, stored, bounded);
   return result;
 }

@@ -21,7 +21,7 @@ struct Interpolation {
   std::array<std::size_t, 16> nodes;
   std::array<double, 16> weights;
 };
-Interpolation interpolation(const Grid& grid, const GgxLobe& folded);
+Interpolation interpolation(const Grid& grid, const Lobe& folded);
 
 // What a shader has after the fetch. NaN where a needed node is skipped or failed, or the lobe is
 // NaN. With a storage other than `matrix`, the roughnesses that scale S are at least alpha_min.
@@ -32,6 +32,6 @@ struct LookUp {
   double amplitude;
   double fresnel;
 };
-LookUp look_up(const Table& table, const GgxLobe& lobe);
+LookUp look_up(const Table& table, const Lobe& lobe);
 
 }  // namespace ltc

@@ -16,7 +16,7 @@ double between(double first, double last, double uniform) {
 
 }  // namespace
 
-GgxLobe query_lobe(const QueryRange& range, const std::array<double, 4>& uniforms,
+Lobe query_lobe(const QueryRange& range, const std::array<double, 4>& uniforms,
                    double alpha_min) {
   const double roughness = between(range.roughness_first, range.roughness_last, uniforms[0]);
   const double alpha = roughness * roughness;
@@ -26,10 +26,10 @@ GgxLobe query_lobe(const QueryRange& range, const std::array<double, 4>& uniform
           between(range.phi_first, range.phi_last, uniforms[3])};
 }
 
-std::vector<GgxLobe> random_queries(const QueryRange& range, std::size_t count, std::uint64_t seed,
+std::vector<Lobe> random_queries(const QueryRange& range, std::size_t count, std::uint64_t seed,
                                     double alpha_min) {
   Random random(seed);
-  std::vector<GgxLobe> queries;
+  std::vector<Lobe> queries;
   queries.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     std::array<double, 4> uniforms;
@@ -55,9 +55,9 @@ std::vector<std::array<double, 4>> lattice_points(std::size_t first, std::size_t
   return points;
 }
 
-std::vector<GgxLobe> lattice_queries(const QueryRange& range, std::size_t first, std::size_t count,
+std::vector<Lobe> lattice_queries(const QueryRange& range, std::size_t first, std::size_t count,
                                      double alpha_min) {
-  std::vector<GgxLobe> queries;
+  std::vector<Lobe> queries;
   queries.reserve(count);
   for (const std::array<double, 4>& point : lattice_points(first, count))
     queries.push_back(query_lobe(range, point, alpha_min));

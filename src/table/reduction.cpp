@@ -44,7 +44,7 @@ FoldedAzimuth fold_azimuth(double phi_radians) {
 }
 
 // Equation (13) alone.
-FoldedLobe mirrored(const GgxLobe& lobe) {
+FoldedLobe mirrored(const Lobe& lobe) {
   const FoldedAzimuth azimuth = fold_azimuth(lobe.phi_radians);
   FoldedLobe folded{lobe, Eigen::Vector3d(azimuth.sign_x, azimuth.sign_y, 1).asDiagonal()};
   folded.lobe.phi_radians = azimuth.phi_radians;
@@ -52,7 +52,7 @@ FoldedLobe mirrored(const GgxLobe& lobe) {
 }
 
 // The lobe of the larger roughness turned to an azimuth.
-FoldedLobe turn(const GgxLobe& lobe, double phi_radians) {
+FoldedLobe turn(const Lobe& lobe, double phi_radians) {
   // max(NaN, y) is NaN, max(x, NaN) is x.
   const double alpha =
       std::isnan(lobe.alpha_y) ? lobe.alpha_y : std::max(lobe.alpha_x, lobe.alpha_y);
@@ -68,7 +68,7 @@ double clamped(const Axis& axis, double value, double below, double above) {
 
 }  // namespace
 
-FoldedLobe fold(const GgxLobe& lobe) {
+FoldedLobe fold(const Lobe& lobe) {
   FoldedLobe folded = mirrored(lobe);
   if (lobe.alpha_y > lobe.alpha_x) {
     std::swap(folded.lobe.alpha_x, folded.lobe.alpha_y);
@@ -79,7 +79,7 @@ FoldedLobe fold(const GgxLobe& lobe) {
   return folded;
 }
 
-double second_roughness(const Grid& grid, const GgxLobe& folded) {
+double second_roughness(const Grid& grid, const Lobe& folded) {
   if (grid.layout == Layout::alphax_alphay)
     return folded.alpha_y;
   return folded.alpha_x == 0 ? 1.0 : folded.alpha_y / folded.alpha_x;
@@ -98,15 +98,15 @@ Reduction::Reduction(const Grid& grid)
       turns_(grid.layout == Layout::alpha_lambda && grid.phi.size() == 1 &&
              grid.lambda.size() == 1 && grid.lambda.first() == 1) {}
 
-FoldedLobe Reduction::fold(const GgxLobe& lobe) const {
+FoldedLobe Reduction::fold(const Lobe& lobe) const {
   if (grid_.layout == Layout::alphax_alphay)
     return mirrored(lobe);
   return turns_ ? turn(lobe, grid_.phi.first()) : ltc::fold(lobe);
 }
 
-bool Reduction::covers(const GgxLobe& lobe) const {
+bool Reduction::covers(const Lobe& lobe) const {
   // Of a table that turns lobes, too: one of two roughnesses is none of its own.
-  const GgxLobe folded = turns_ ? ltc::fold(lobe).lobe : fold(lobe).lobe;
+  const Lobe folded = turns_ ? ltc::fold(lobe).lobe : fold(lobe).lobe;
   const double second = second_roughness(grid_, folded);
   // A smaller roughness below alpha_min is raised to it at the nodes too: there, every ratio from
   // the axis' last one on is the same lobe.

@@ -12,18 +12,18 @@ namespace ltc {
 // A lobe brought into a table's domain: the lobe asked for is `unfold` applied to the folded one,
 // M = unfold * M_folded.
 struct FoldedLobe {
-  GgxLobe lobe;
+  Lobe lobe;
   Eigen::Matrix3d unfold;  // orthogonal
 };
 
 // Equations (13) to (15) of Aakash et al. 2022: alpha_x >= alpha_y and phi in [0, pi/2]. `unfold`
 // is a diagonal of +-1, times the swap of x and y where alpha_y > alpha_x.
-FoldedLobe fold(const GgxLobe& lobe);
+FoldedLobe fold(const Lobe& lobe);
 
 // Where a folded lobe stands on the grid's second axis: its alpha_y where that is the axis, else
 // the ratio of its roughnesses. At zero roughness every ratio is the same lobe; 1 is the one that
 // takes no lower bound to be so.
-double second_roughness(const Grid& grid, const GgxLobe& folded);
+double second_roughness(const Grid& grid, const Lobe& folded);
 
 // How a table of this grid is asked; every look-up, and all that judges one, goes by it.
 //
@@ -42,11 +42,11 @@ class Reduction {
 
   // A table that turns lobes has isotropic ones only, so that of a lobe with two roughnesses the
   // larger one counts.
-  FoldedLobe fold(const GgxLobe& lobe) const;
+  FoldedLobe fold(const Lobe& lobe) const;
 
   // Whether a lobe, folded or not, is on the axes, or so little beyond them that clamping is no
   // matter: the last node of the paper's theta is 1.6e-4 from the horizon.
-  bool covers(const GgxLobe& lobe) const;
+  bool covers(const Lobe& lobe) const;
 
  private:
   const Grid& grid_;

@@ -17,7 +17,7 @@ Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v) {
 }
 
 Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& stored,
-                                   const GgxLobe& lobe) {
+                                   const Lobe& lobe) {
   if (storage == Storage::matrix)
     return stored;
   Eigen::Matrix3d matrix = stored;
@@ -29,7 +29,7 @@ Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& store
 }
 
 Eigen::Matrix3d stored_from_matrix(Storage storage, const Eigen::Matrix3d& matrix,
-                                   const GgxLobe& lobe) {
+                                   const Lobe& lobe) {
   if (storage == Storage::matrix)
     return matrix;
   Eigen::Matrix3d stored = matrix;

@@ -30,8 +30,8 @@ Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v);
 
 // M of a lobe from the stored S, and S from M. Neither normalises.
 Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& stored,
-                                   const GgxLobe& lobe);
+                                   const Lobe& lobe);
 Eigen::Matrix3d stored_from_matrix(Storage storage, const Eigen::Matrix3d& matrix,
-                                   const GgxLobe& lobe);
+                                   const Lobe& lobe);
 
 }  // namespace ltc

@@ -68,7 +68,7 @@ double search(const Eigen::Matrix3d& matrix, const std::vector<Eigen::Vector3d>&
 }
 
 // The first-order LTC of a lobe (exact for smooth surfaces), turned by something arbitrary.
-Eigen::Matrix3d fitted_like(const GgxLobe& lobe) {
+Eigen::Matrix3d fitted_like(const Lobe& lobe) {
   const Eigen::Vector3d v = lobe.omega_v();
   Eigen::Matrix3d matrix;
   matrix.col(0) = lobe.alpha_x * Eigen::Vector3d(2 * v.z(), 0, 2 * v.x());
@@ -77,7 +77,7 @@ Eigen::Matrix3d fitted_like(const GgxLobe& lobe) {
   return matrix;
 }
 
-std::vector<GgxLobe> lobes() {
+std::vector<Lobe> lobes() {
   return {{1e-4, 1e-4, 0.3, 0.4},
           {0.1, 1e-4, 0.9, 1.1},
           {0.3, 0.05, 1.3, 0.5},
@@ -88,7 +88,7 @@ std::vector<GgxLobe> lobes() {
 std::vector<Eigen::Matrix3d> fitted_like_matrices() {
   test::Uniform uniform(6);
   std::vector<Eigen::Matrix3d> matrices;
-  for (const GgxLobe& lobe : lobes())
+  for (const Lobe& lobe : lobes())
     for (const bool flip : {false, true})
       matrices.push_back(fitted_like(lobe) * turned(2 * kPi * uniform(), flip, false));
   return matrices;

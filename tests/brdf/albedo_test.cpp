@@ -17,14 +17,14 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kBound = 1e-4;  // what the table promises
 
-GgxLobe paper_node(int alpha, int lambda, int theta, int phi) {
+Lobe paper_node(int alpha, int lambda, int theta, int phi) {
   return {std::max(alpha / 7.0, 1e-4), std::max(alpha / 7.0 * lambda / 7.0, 1e-4),
           0.9999 * kPi / 2 * theta / 7, kPi / 2 * phi / 7};
 }
 
 // Midpoint rule over the unit square of visible normals through the sampler's code: another
 // rule, another precision. Its error is below 5e-6 (halving the steps changes it by less).
-Albedo reference(const GgxLobe& lobe) {
+Albedo reference(const Lobe& lobe) {
   const GgxSampler sampler(lobe);
   const int azimuths = 384, heights = 1536;
   std::vector<double> cosines, sines;
@@ -48,7 +48,7 @@ Albedo reference(const GgxLobe& lobe) {
 }
 
 // Nodes where coarse rules err most (found once over all 4096), and the corners of the grid.
-std::vector<GgxLobe> hard_nodes() {
+std::vector<Lobe> hard_nodes() {
   return {paper_node(1, 2, 1, 1), paper_node(1, 0, 6, 6), paper_node(2, 0, 4, 2),
           paper_node(2, 1, 1, 0), paper_node(3, 1, 1, 5), paper_node(5, 1, 5, 3),
           paper_node(6, 0, 1, 3), paper_node(7, 0, 2, 4), paper_node(7, 0, 2, 5),
@@ -65,7 +65,7 @@ double largest_error(const Albedo& value, const Albedo& expected) {
 TEST(Albedo, ConvergesBelowTheBound) {
   const AlbedoRule coarse(256), standard, fine(8 * AlbedoRule::default_points);
   double coarse_error = 0, standard_error = 0, fine_error = 0;
-  for (const GgxLobe& lobe : hard_nodes()) {
+  for (const Lobe& lobe : hard_nodes()) {
     const Albedo expected = reference(lobe);
     coarse_error = std::max(coarse_error, largest_error(integrate_albedo(lobe, coarse), expected));
     standard_error =
@@ -79,8 +79,8 @@ TEST(Albedo, ConvergesBelowTheBound) {
 
 TEST(Albedo, EqualsTheBrdfIntegratedOverTheHemisphere) {
   const AlbedoRule rule;
-  for (const GgxLobe& lobe :
-       {GgxLobe{1, 1, 0, 0}, GgxLobe{0.8, 0.4, 1.0, 0.6}, GgxLobe{0.5, 0.9, 0.5, 2.0}}) {
+  for (const Lobe& lobe :
+       {Lobe{1, 1, 0, 0}, Lobe{0.8, 0.4, 1.0, 0.6}, Lobe{0.5, 0.9, 0.5, 2.0}}) {
     const GgxSampler sampler(lobe);
     Albedo expected;
     const int steps = 500;
@@ -127,7 +127,7 @@ TEST(Albedo, IsFiniteAndOrderedAtEveryCorner) {
 
 TEST(Albedo, HasTheSameBitsOnEveryInstructionSet) {
   const AlbedoRule rule(1024);
-  const GgxLobe lobe{0.4, 0.1, 1.3, 0.5};
+  const Lobe lobe{0.4, 0.1, 1.3, 0.5};
   const Albedo expected = integrate_albedo(lobe, rule);
   int targets = 0;
   for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {

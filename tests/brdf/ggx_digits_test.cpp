@@ -35,8 +35,8 @@ std::vector<double> thetas() {
   return thetas;
 }
 
-std::vector<GgxLobe> lobes() {
-  std::vector<GgxLobe> lobes;
+std::vector<Lobe> lobes() {
+  std::vector<Lobe> lobes;
   for (const double alpha_x : logarithmic(1e-6, 1, 4))
     for (const double alpha_y : logarithmic(1e-6, 1, 4))
       for (const double theta : thetas())
@@ -53,7 +53,7 @@ TEST(GgxDigits, CosineOfAGrazingView) {
   WorstError careful, naive;
   for (const double theta : thetas()) {
     const long double expected = std::cos(static_cast<long double>(theta));
-    const Eigen::Vector3d v = GgxLobe{1, 1, theta, 0}.omega_v();
+    const Eigen::Vector3d v = Lobe{1, 1, theta, 0}.omega_v();
     careful.add_relative(v.z(), expected);
     naive.add_relative(std::sqrt(1 - v.x() * v.x()), expected);
   }
@@ -63,7 +63,7 @@ TEST(GgxDigits, CosineOfAGrazingView) {
 
 TEST(GgxDigits, Lambda) {
   WorstError careful, naive;
-  for (const GgxLobe& lobe : lobes()) {
+  for (const Lobe& lobe : lobes()) {
     const Eigen::Vector3d v = lobe.omega_v();
     const Wide z = v.z();
     const Wide tangents =
@@ -87,7 +87,7 @@ TEST(GgxDigits, VisibleNormalsOfTheTails) {
   for (const double alpha : logarithmic(1e-6, 1, 7))
     for (const double theta : thetas())
       for (const double from_rim : logarithmic(1e-15, 0.999, 31)) {
-        const GgxLobe lobe{alpha, alpha, theta, 0};
+        const Lobe lobe{alpha, alpha, theta, 0};
         const double u = 1 - from_rim;
         const Eigen::Vector3d h = GgxSampler(lobe).visible_normal(0, 1, u);  // across the view
         const Eigen::Vector3d v = lobe.omega_v();
@@ -107,7 +107,7 @@ TEST(GgxDigits, VisibleNormalsOfTheTails) {
 
 TEST(GgxDigits, OffsetsFromTheMirrorDirection) {
   WorstError careful, naive;
-  for (const GgxLobe& lobe : lobes()) {
+  for (const Lobe& lobe : lobes()) {
     const GgxSampler sampler(lobe);
     for (const double u : {0.01, 0.3, 0.9}) {
       const Eigen::Vector3d h = sampler.visible_normal(0.15, u);
@@ -138,7 +138,7 @@ TEST(GgxDigits, DensityBesideTheMirrorDirection) {
   WorstError careful, naive;
   for (const double alpha : logarithmic(1e-6, 1e-2, 5))
     for (const double theta : {0.0, 0.3, 0.8, 1.2, 1.5}) {
-      const GgxLobe lobe{alpha, alpha, theta, 0.4};
+      const Lobe lobe{alpha, alpha, theta, 0.4};
       const GgxSampler sampler(lobe);
       const GgxSample sample = sampler.sample_visible(0.3, 0.6);
       const Eigen::Vector3d v = sampler.omega_v();
@@ -161,7 +161,7 @@ TEST(GgxDigits, DensityBesideTheMirrorDirection) {
 // The integrals of the rule's own points by the formulas as printed; in single precision, with z of
 // the light from its x and y.
 template <typename Scalar>
-Albedo plain_albedo(const GgxLobe& lobe, const AlbedoRule& rule) {
+Albedo plain_albedo(const Lobe& lobe, const AlbedoRule& rule) {
   using Vector = Eigen::Matrix<Scalar, 3, 1>;
   const Vector v = lobe.omega_v().cast<Scalar>();
   const auto ax = static_cast<Scalar>(lobe.alpha_x), ay = static_cast<Scalar>(lobe.alpha_y);
@@ -199,7 +199,7 @@ TEST(GgxDigits, AlbedoInSinglePrecision) {
   for (const double alpha_x : logarithmic(1e-6, 1, 3))
     for (const double alpha_y : logarithmic(1e-6, 1, 3))
       for (const double theta : {0.0, 1e-3, 0.8, 1.5, radians_of_degrees(89.999)}) {
-        const GgxLobe lobe{alpha_x, alpha_y, theta, 0.7};
+        const Lobe lobe{alpha_x, alpha_y, theta, 0.7};
         const Albedo expected = plain_albedo<long double>(lobe, rule);
         const Albedo plain = plain_albedo<float>(lobe, rule);
         const Albedo found = integrate_albedo(lobe, rule);

@@ -24,8 +24,8 @@ constexpr double kGrazing = 0.9999 * kPi / 2;
 using Vector3l = Eigen::Matrix<long double, 3, 1>;
 
 // The corners that have broken other implementations: mirrors, needles and grazing views.
-std::vector<GgxLobe> hard_lobes() {
-  std::vector<GgxLobe> lobes;
+std::vector<Lobe> hard_lobes() {
+  std::vector<Lobe> lobes;
   for (const double alpha_x : {1e-6, 1e-4, 0.02, 0.3, 1.0})
     for (const double alpha_y : {1e-6, 1e-4, 0.05, 1.0})
       for (const double theta : {0.0, 0.4, 1.2, 1.5, kGrazing})
@@ -35,10 +35,10 @@ std::vector<GgxLobe> hard_lobes() {
 }
 
 TEST(Ggx, ViewAlongAnAxisIsExactlySymmetric) {
-  EXPECT_EQ(GgxLobe({0.1, 0.1, 1.0, kPi / 2}).omega_v().x(), 0);
-  EXPECT_EQ(GgxLobe({0.1, 0.1, 1.0, 0}).omega_v().y(), 0);
-  EXPECT_EQ(GgxLobe({0.1, 0.1, 1.0, kPi}).omega_v().y(), 0);
-  EXPECT_NE(GgxLobe({0.1, 0.1, 1.0, 1e-9}).omega_v().y(), 0);
+  EXPECT_EQ(Lobe({0.1, 0.1, 1.0, kPi / 2}).omega_v().x(), 0);
+  EXPECT_EQ(Lobe({0.1, 0.1, 1.0, 0}).omega_v().y(), 0);
+  EXPECT_EQ(Lobe({0.1, 0.1, 1.0, kPi}).omega_v().y(), 0);
+  EXPECT_NE(Lobe({0.1, 0.1, 1.0, 1e-9}).omega_v().y(), 0);
 }
 
 TEST(Ggx, LambdaKeepsItsDigits) {
@@ -91,7 +91,7 @@ TEST(Ggx, BrdfIsEquationSixAndReciprocal) {
     const auto [theta_v, phi_v] = direction();
     const auto [theta_l, phi_l] = direction();
     const double alpha_x = 0.05 + uniform(), alpha_y = 0.05 + uniform();
-    const GgxLobe there{alpha_x, alpha_y, theta_v, phi_v}, back{alpha_x, alpha_y, theta_l, phi_l};
+    const Lobe there{alpha_x, alpha_y, theta_v, phi_v}, back{alpha_x, alpha_y, theta_l, phi_l};
     const Eigen::Vector3d v = there.omega_v(), l = back.omega_v();
     const Eigen::Vector3d h = (v + l).normalized();
     const double as_printed =
@@ -111,7 +111,7 @@ TEST(Ggx, BrdfIsZeroBelowTheHorizon) {
 }
 
 TEST(Ggx, PeakOfASharpLobeIsFiniteAndRight) {
-  for (const GgxLobe& lobe : hard_lobes()) {
+  for (const Lobe& lobe : hard_lobes()) {
     const GgxSampler sampler(lobe);
     // At the mirror direction h = z, D = 1/(pi ax ay), Lambda(l) = Lambda(v).
     const double lambda = ggx_lambda(lobe.alpha_x, lobe.alpha_y, sampler.omega_v());
@@ -132,7 +132,7 @@ Vector3l plain_offset(const Eigen::Vector3d& view, const Eigen::Vector3d& normal
 
 TEST(Ggx, OffsetFromTheMirrorKeepsItsDigits) {
   Uniform uniform(5);
-  for (const GgxLobe& lobe : hard_lobes()) {
+  for (const Lobe& lobe : hard_lobes()) {
     const GgxSampler sampler(lobe);
     for (int i = 0; i < 20; ++i) {
       // A slope whose z in long double makes the vector unit beyond double: the reference must not
@@ -167,7 +167,7 @@ TEST(Ggx, PlainReflectionWouldLoseDigits) {
 TEST(Ggx, SamplesOfHardLobesAreFiniteUnitVectors) {
   const VisibleNormalLattice lattice(256);
   WeightedSamples samples;
-  for (const GgxLobe& lobe : hard_lobes()) {
+  for (const Lobe& lobe : hard_lobes()) {
     const GgxSampler sampler(lobe);
     for (const double u_azimuth : {0.0, 0.25, 0.9999999})
       for (const double u_height : {0.0, 1e-16, 0.5, 1 - 0x1p-53}) {
@@ -188,7 +188,7 @@ TEST(Ggx, SamplesOfHardLobesAreFiniteUnitVectors) {
 }
 
 TEST(Ggx, WeightIsBrdfOverDensity) {
-  for (const GgxLobe& lobe : hard_lobes()) {
+  for (const Lobe& lobe : hard_lobes()) {
     const GgxSampler sampler(lobe);
     const GgxSample sample = sampler.sample_visible(0.37, 0.41);
     const double density = sampler.vndf_density_at_offset(sample.offset);
@@ -202,7 +202,7 @@ class SlopeHistogram {
  public:
   static constexpr int kRadii = 14, kAngles = 20, kSubdivisions = 12;
 
-  explicit SlopeHistogram(const GgxLobe& lobe) : lobe_(lobe), sampler_(lobe) {}
+  explicit SlopeHistogram(const Lobe& lobe) : lobe_(lobe), sampler_(lobe) {}
 
   std::size_t bin(const Eigen::Vector3d& offset) const {
     const double hz = 2 * sampler_.omega_v().z() + offset.z();
@@ -240,11 +240,11 @@ class SlopeHistogram {
   }
 
  private:
-  GgxLobe lobe_;
+  Lobe lobe_;
   GgxSampler sampler_;
 };
 
-std::vector<GgxLobe> lobes_of_chi_squared() {
+std::vector<Lobe> lobes_of_chi_squared() {
   return {
       {1e-6, 1e-6, 1.2, 0.7}, {0.4, 0.05, 1.3, 0.9}, {0.9, 0.6, 0.5, 2.5}, {1e-4, 0.3, 1.5, 0.2}};
 }
@@ -257,7 +257,7 @@ void scale(std::vector<double>& values, double factor) {
 }
 
 // How a sampler's histogram compares with the density of a lobe.
-ChiSquared visible_normals_against(const GgxLobe& sampled, const GgxLobe& expected_lobe) {
+ChiSquared visible_normals_against(const Lobe& sampled, const Lobe& expected_lobe) {
   const SlopeHistogram histogram(sampled);
   const GgxSampler sampler(sampled), expected_sampler(expected_lobe);
   std::vector<double> expected = histogram.integrate([&](const Eigen::Vector3d& offset) {
@@ -274,13 +274,13 @@ ChiSquared visible_normals_against(const GgxLobe& sampled, const GgxLobe& expect
 }
 
 // A lobe whose density must be told from the given one's: 10 % rougher.
-GgxLobe slightly_rougher(GgxLobe lobe) {
+Lobe slightly_rougher(Lobe lobe) {
   lobe.alpha_x *= 1.1;
   return lobe;
 }
 
 TEST(GgxChiSquared, VisibleNormals) {
-  for (const GgxLobe& lobe : lobes_of_chi_squared()) {
+  for (const Lobe& lobe : lobes_of_chi_squared()) {
     const ChiSquared right = visible_normals_against(lobe, lobe);
     EXPECT_TRUE(right.accepted()) << right.deviations();
     EXPECT_GT(right.degrees_of_freedom, 50u);
@@ -288,7 +288,7 @@ TEST(GgxChiSquared, VisibleNormals) {
   }
 }
 
-ChiSquared rejection_against(const GgxLobe& sampled, const GgxLobe& expected_lobe) {
+ChiSquared rejection_against(const Lobe& sampled, const Lobe& expected_lobe) {
   const SlopeHistogram histogram(sampled);
   const GgxSampler sampler(sampled), expected_sampler(expected_lobe);
   std::vector<double> expected = histogram.integrate([&](const Eigen::Vector3d& offset) {
@@ -306,7 +306,7 @@ ChiSquared rejection_against(const GgxLobe& sampled, const GgxLobe& expected_lob
 }
 
 TEST(GgxChiSquared, Rejection) {
-  for (const GgxLobe& lobe : lobes_of_chi_squared()) {
+  for (const Lobe& lobe : lobes_of_chi_squared()) {
     const ChiSquared right = rejection_against(lobe, lobe);
     EXPECT_TRUE(right.accepted()) << right.deviations();
     EXPECT_GT(right.degrees_of_freedom, 50u);
@@ -316,7 +316,7 @@ TEST(GgxChiSquared, Rejection) {
 
 // Sums of weights in [0, 1]; a lattice's are far less scattered than random ones, so the test is
 // one-sided: too good is good.
-ChiSquared lattice_against(const GgxLobe& sampled, const GgxLobe& expected_lobe) {
+ChiSquared lattice_against(const Lobe& sampled, const Lobe& expected_lobe) {
   const SlopeHistogram histogram(sampled);
   const GgxSampler expected_sampler(expected_lobe);
   std::vector<double> expected = histogram.integrate([&](const Eigen::Vector3d& offset) {
@@ -333,7 +333,7 @@ ChiSquared lattice_against(const GgxLobe& sampled, const GgxLobe& expected_lobe)
 }
 
 TEST(GgxChiSquared, WeightedLattice) {
-  for (const GgxLobe& lobe : lobes_of_chi_squared()) {
+  for (const Lobe& lobe : lobes_of_chi_squared()) {
     const ChiSquared right = lattice_against(lobe, lobe);
     EXPECT_TRUE(right.accepted()) << right.deviations();
     EXPECT_GT(right.degrees_of_freedom, 50u);

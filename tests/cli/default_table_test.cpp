@@ -119,7 +119,7 @@ std::vector<std::size_t> stratified_entries(const Table& table) {
 }
 
 // The loss of `matrix` at an entry, on samples that no fit has seen.
-double held_out_loss(HeldOutJudge& judge, const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
+double held_out_loss(HeldOutJudge& judge, const Lobe& lobe, const Eigen::Matrix3d& matrix) {
   judge.set_lobe(lobe);
   return judge.loss(matrix);
 }
@@ -155,7 +155,7 @@ Statistics ratios_to(const std::vector<Eigen::Matrix3d>& reference, const Table&
   HeldOutJudge judge = prototype;
   std::vector<EntryComparison> comparisons(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const GgxLobe lobe = table.grid.lobe(entries[i]);
+    const Lobe lobe = table.grid.lobe(entries[i]);
     comparisons[i] = {held_out_loss(judge, lobe, table.matrix_at(entries[i])),
                       held_out_loss(judge, lobe, reference[i]), judge.spread()};
   }
@@ -297,10 +297,10 @@ TEST(DefaultTable, AsFittedIsNearerToGgxThanThePublished) {
 
 // ---- Refined ----
 
-double mean_relative_loss(const Table& table, const std::vector<GgxLobe>& lobes) {
+double mean_relative_loss(const Table& table, const std::vector<Lobe>& lobes) {
   HeldOutJudge judge(2048, 16);
   double sum = 0;
-  for (const GgxLobe& lobe : lobes) {
+  for (const Lobe& lobe : lobes) {
     judge.set_lobe(lobe);
     sum += judge.loss(look_up(table, lobe).matrix) / judge.spread();
   }
@@ -339,7 +339,7 @@ TEST(DefaultTable, RefinedIsWholeReadableAndNearGgxBetweenTheNodes) {
   const Table fitted = read_table(folder / "fitted/ltc.h5");
   // Queries that no refinement has seen. Measured over 2,400: 0.081 against 0.112; 300 of them tell
   // the ratio to some 4 %: 0.775.
-  const std::vector<GgxLobe> lobes = random_queries({}, 300, 77, table.grid.alpha_min);
+  const std::vector<Lobe> lobes = random_queries({}, 300, 77, table.grid.alpha_min);
   EXPECT_LT(mean_relative_loss(table, lobes), 0.80 * mean_relative_loss(fitted, lobes));
   // The price at the nodes; measured over all: 1.22.
   EXPECT_LT(mean_node_loss(table), 1.25 * mean_node_loss(fitted));

@@ -41,9 +41,9 @@ std::vector<std::string> generate(std::vector<std::string> more) {
 double mean_relative_loss(const Table& table) {
   HeldOutJudge judge(1024, 16);
   double sum = 0;
-  const std::vector<GgxLobe> queries =
+  const std::vector<Lobe> queries =
       random_queries({0.5, 1, 0, 1, 0, 1}, 200, 31, table.grid.alpha_min);
-  for (const GgxLobe& lobe : queries) {
+  for (const Lobe& lobe : queries) {
     judge.set_lobe(lobe);
     sum += judge.loss(look_up(table, lobe).matrix) / judge.spread();
   }

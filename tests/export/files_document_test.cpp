@@ -20,8 +20,8 @@ namespace {
 using testing::TemporaryFolder;
 
 // All quadrants and both roughness orders, beyond the axes too, and the seams themselves.
-std::vector<GgxLobe> queries() {
-  std::vector<GgxLobe> lobes = {{0, 0, 0.3, 0.2},         {0.5, 0, 0.3, 0},
+std::vector<Lobe> queries() {
+  std::vector<Lobe> lobes = {{0, 0, 0.3, 0.2},         {0.5, 0, 0.3, 0},
                                 {0.3, 0.3, 0, 0},         {1, 1, 1.5, M_PI / 2},
                                 {0.2, 0.4, 1, M_PI},      {0.4, 0.2, 1, 3 * M_PI / 2},
                                 {0.00005, 0.9, 0.5, 5.0}, {0.4, 0.00001, 0.5, 2.0}};
@@ -36,7 +36,7 @@ std::vector<GgxLobe> queries() {
 // The largest difference between the document's look-up in `file` and ours in `table`.
 double largest_difference(const TemporaryFolder& folder, const Table& table) {
   nlohmann::json asked;
-  for (const GgxLobe& lobe : queries())
+  for (const Lobe& lobe : queries())
     asked.push_back({lobe.alpha_x, lobe.alpha_y, lobe.theta_radians, lobe.phi_radians});
   testing::write_bytes(folder / "queries.json", asked.dump());
   const testing::Finished finished = testing::run_python(

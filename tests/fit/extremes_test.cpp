@@ -26,8 +26,8 @@ using Vector3l = Eigen::Matrix<long double, 3, 1>;
 using Matrix3l = Eigen::Matrix<long double, 3, 3>;
 
 // alpha_y, lambda alpha, goes down to 1e-12.
-std::vector<GgxLobe> extremes() {
-  std::vector<GgxLobe> lobes;
+std::vector<Lobe> extremes() {
+  std::vector<Lobe> lobes;
   constexpr double quarter_turn = std::numbers::pi / 2;
   for (const double alpha : {1e-6, 1e-4, 1e-2, 1.0})
     for (const double lambda : {1e-6, 1e-3, 1.0})
@@ -218,7 +218,7 @@ struct ModelErrors {
 
 class QuantileModelCheck {
  public:
-  explicit QuantileModelCheck(const GgxLobe& lobe)
+  explicit QuantileModelCheck(const Lobe& lobe)
       : frame_(lobe), points_(ggx_points(frame_, lattice())) {
     TargetSamples samples;
     sample_weighted_target(frame_, lattice(), samples);
@@ -268,7 +268,7 @@ class QuantileModelCheck {
 
 TEST(Extremes, QuantileModelInSinglePrecision) {
   test::WorstError loss, gradient, loss_near, gradient_near;
-  for (const GgxLobe& lobe : extremes()) {
+  for (const Lobe& lobe : extremes()) {
     QuantileModelCheck check(lobe);
     const ModelErrors away = check.at(away_from_minimum(check.frame()));
     const ModelErrors near = check.at(first_order_start(check.frame()));
@@ -345,7 +345,7 @@ TEST(Extremes, SortedLossInDoublePrecision) {
   const TargetLattice lattice = make_target_lattice(256, test::kMiddleShift);
   const auto directions = fibonacci_directions(16);
   test::WorstError loss_error, gradient_error;
-  for (const GgxLobe& lobe : extremes()) {
+  for (const Lobe& lobe : extremes()) {
     const LobeFrame frame(lobe);
     const GgxSampler sampler(lobe);
     PointSet target;
@@ -381,7 +381,7 @@ TEST(Extremes, SortedLossInDoublePrecision) {
 // Why the fast path works on offsets: with directions in single precision, the loss of a narrow
 // lobe would be made of differences of numbers near 1.
 TEST(Extremes, DirectionsInSinglePrecisionWouldNotDo) {
-  const GgxLobe lobe{1e-6, 1e-6, 0.6, 0.7};
+  const Lobe lobe{1e-6, 1e-6, 0.6, 0.7};
   const LobeFrame frame(lobe);
   const CosineSet cosines = make_cosine_set(256);
   TargetSamples samples;

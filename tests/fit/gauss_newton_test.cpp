@@ -36,7 +36,7 @@ double matching_digits(const LobeFrame& frame, const Eigen::Matrix3d& found,
 }
 
 struct Planted {
-  Planted(const GgxLobe& lobe, std::uint64_t seed) : frame(lobe) {
+  Planted(const Lobe& lobe, std::uint64_t seed) : frame(lobe) {
     test::Uniform uniform(seed);
     planted = frame.first_order;
     for (int row = 0; row < 3; ++row)
@@ -65,12 +65,12 @@ struct Planted {
   ModelWorkspace workspace;
 };
 
-const std::vector<GgxLobe> kPlantedLobes = {
+const std::vector<Lobe> kPlantedLobes = {
     {0.5, 0.4, 0.6, 0.4}, {0.8, 0.3, 0.9, 1.0}, {0.3, 0.1, 1.0, 1.2}, {0.05, 0.02, 0.5, 0.7}};
 
 TEST(GaussNewton, FindsAPlantedOptimumFromSeveralStarts) {
   std::uint64_t seed = 1;
-  for (const GgxLobe& lobe : kPlantedLobes) {
+  for (const Lobe& lobe : kPlantedLobes) {
     Planted problem(lobe, seed++);
     const double planted_loss = problem.descend(problem.planted, 0).loss;
     const Eigen::Matrix3d starts[] = {
@@ -107,7 +107,7 @@ TEST(GaussNewton, TakesNoStepThatLoses) {
   // Step by step, by ending the same descent one step later each time: loss and prior together
   // never rise.
   int falls = 0;
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     const LobeFrame frame(lobe);
     TargetSamples samples;
     sample_weighted_target(frame, make_target_lattice(4096, 0.3), samples);
@@ -172,7 +172,7 @@ TEST(GaussNewton, ZeroStepsReturnTheStart) {
 }
 
 // The held-out loss of what the default settings fit.
-double fitted_loss(const GgxLobe& lobe) {
+double fitted_loss(const Lobe& lobe) {
   FitRequest request;
   request.lobe = lobe;
   const Eigen::Matrix3d m = make_solver({})->fit(request, *make_fit_workspace(), nullptr).matrix;
@@ -187,7 +187,7 @@ double fitted_loss(const GgxLobe& lobe) {
 TEST(GaussNewtonSolver, OpensThinBentLobes) {
   const double node = radians_of_degrees(89.991 / 7), azimuth = radians_of_degrees(90.0 / 7);
   const struct {
-    GgxLobe lobe;
+    Lobe lobe;
     double reference_loss;  // held out, of config/reference.toml
   } cases[] = {{{3.0 / 7, 1e-4, 2 * node, azimuth}, 6.5623e-3},
                {{4.0 / 7, 1e-4, node, azimuth}, 3.9208e-3},
@@ -200,7 +200,7 @@ TEST(GaussNewtonSolver, OpensThinBentLobes) {
 // Near the horizon few samples of a thin lobe have a minimum of their own: on a quarter of them
 // this one ended at 1.062 times the reference's loss.
 TEST(GaussNewtonSolver, SeesThatItFollowedItsSamples) {
-  const GgxLobe lobe{1, 0.01, radians_of_degrees(89), radians_of_degrees(90)};
+  const Lobe lobe{1, 0.01, radians_of_degrees(89), radians_of_degrees(90)};
   constexpr double reference_loss = 2.5065e-3;          // held out, of config/reference.toml
   EXPECT_LT(fitted_loss(lobe), 1.02 * reference_loss);  // measured: 1.006 times
 }
@@ -208,7 +208,7 @@ TEST(GaussNewtonSolver, SeesThatItFollowedItsSamples) {
 TEST(GaussNewtonSolver, ReturnsAPositiveDeterminantAndTheSameBitsInAnyWorkspace) {
   const std::unique_ptr<Solver> solver = make_solver({});
   FitWorkspacePointer shared = make_fit_workspace();
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     FitRequest request;
     request.lobe = lobe;
     const FitResult used = solver->fit(request, *shared, nullptr);

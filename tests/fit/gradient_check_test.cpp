@@ -16,7 +16,7 @@ namespace {
 
 // A lobe's loss on a small set: 64 cosine samples, 128 weighted target samples, 8 directions.
 struct Problem {
-  explicit Problem(const GgxLobe& lobe)
+  explicit Problem(const Lobe& lobe)
       : omega_o(test::in_double(make_cosine_set(64))), loss(make_loss(LobeFrame(lobe))) {
     // Not at a minimum: the moment start, moved.
     Eigen::Matrix3d p = LobeFrame(lobe).first_order;
@@ -41,7 +41,7 @@ struct Problem {
 };
 
 TEST(GradientCheck, PassesTheGradientByHand) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     const Problem problem(lobe);
     const LossAndGradient value = problem.loss(problem.matrix);
     const GradientCheck check = check_gradient(problem.loss, problem.matrix, value.gradient);
@@ -56,7 +56,7 @@ TEST(GradientCheck, PassesTheGradientByHand) {
 }
 
 TEST(GradientCheck, RejectsOneWrongSign) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     const Problem problem(lobe);
     const Eigen::Matrix3d right = problem.loss(problem.matrix).gradient;
     for (int column = 0; column < 3; ++column) {
@@ -75,7 +75,7 @@ TEST(GradientCheck, RejectsOneWrongSign) {
 }
 
 TEST(GradientCheck, RejectsAFactorOfOnePerCent) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     const Problem problem(lobe);
     const Eigen::Matrix3d right = problem.loss(problem.matrix).gradient;
     const GradientCheck check = check_gradient(problem.loss, problem.matrix, 1.01 * right);
@@ -112,7 +112,7 @@ Eigen::Matrix3d gradient_by_rank(const Problem& problem, const PointSet& target,
 }
 
 TEST(GradientCheck, RejectsAMissingNormalisationTerm) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     const Problem problem(lobe);
     // Nowhere near the lobe's own LTC, so that the term does not average out.
     PointSet target;

@@ -55,7 +55,7 @@ struct Transformed {
   AlignedFloats gx, gy, gz, rows;
 };
 
-Transformed transform(const float* p, const GgxLobe& lobe, const CosineSet& cosines) {
+Transformed transform(const float* p, const Lobe& lobe, const CosineSet& cosines) {
   Transformed result(cosines.size());
   kernels::transform_samples(p, static_cast<float>(lobe.alpha_x), static_cast<float>(lobe.alpha_y),
                              cosines.x.data(), cosines.y.data(), cosines.z.data(), cosines.size(),
@@ -75,7 +75,7 @@ TEST(Kernels, TransformSamplesAgreesWithDouble) {
   const CosineSet cosines = make_cosine_set(1024);
   double worst_offset = 0, worst_row = 0;
   EveryTarget().run([&] {
-    for (const GgxLobe& lobe : test::all_lobes()) {
+    for (const Lobe& lobe : test::all_lobes()) {
       const LobeFrame frame(lobe);
       float p[9];
       Eigen::Matrix3d rounded;
@@ -420,7 +420,7 @@ TEST(Kernels, SampleTargetAgreesWithTheSamplerInDouble) {
   for (const std::size_t count : {1024u, 65536u}) {
     const TargetLattice lattice = make_target_lattice(count, 0.3);
     EveryTarget().run([&] {
-      for (const GgxLobe& lobe : test::all_lobes()) {
+      for (const Lobe& lobe : test::all_lobes()) {
         const LobeFrame frame(lobe);
         const GgxSampler sampler(lobe);
         TargetSamples samples;

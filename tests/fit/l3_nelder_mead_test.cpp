@@ -17,7 +17,7 @@
 namespace ltc {
 namespace {
 
-const GgxLobe kModerate{0.5, 0.25, 0.7, 0.6};
+const Lobe kModerate{0.5, 0.25, 0.7, 0.6};
 
 const CosineSet& cosines() {
   static const CosineSet set = make_cosine_set(1024);
@@ -28,7 +28,7 @@ const TargetLattice& lattice() {
   return set;
 }
 
-L3Error error_of(const GgxLobe& lobe, const CosineSet& set = cosines(),
+L3Error error_of(const Lobe& lobe, const CosineSet& set = cosines(),
                  const TargetLattice& points = lattice()) {
   return ggx_l3_error(lobe, integrate_albedo(lobe, AlbedoRule()).amplitude, points, set);
 }
@@ -48,14 +48,14 @@ L3Error planted(const Eigen::Matrix3d& matrix) {
       samples, cosines());
 }
 
-FitResult fit(const GgxLobe& lobe, const L3Settings& settings = {},
+FitResult fit(const Lobe& lobe, const L3Settings& settings = {},
               std::vector<FitStep>* trace = nullptr) {
   FitRequest request;
   request.lobe = lobe;
   return L3NelderMeadSolver(settings).fit(request, *make_fit_workspace(), trace);
 }
 
-double held_out(const GgxLobe& lobe, const Eigen::Matrix3d& matrix) {
+double held_out(const Lobe& lobe, const Eigen::Matrix3d& matrix) {
   HeldOutJudge judge(4096, 32);
   judge.set_lobe(lobe);
   return judge.loss(matrix);
@@ -137,7 +137,7 @@ TEST(L3NelderMead, FindsAPlantedLobe) {
 }
 
 TEST(L3NelderMead, ReducesItsOwnError) {
-  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+  for (const Lobe& lobe : test::ordinary_lobes()) {
     const LobeFrame frame(lobe);
     const Eigen::Matrix3d start = first_order_start(frame);
     const L3Error error = error_of(lobe);
@@ -196,7 +196,7 @@ TEST(L3NelderMead, StartsWhereItIsTold) {
 
 // What Aakash et al. 2022 (section 4.1) say of the method, and why it is a baseline only.
 TEST(L3NelderMead, FromTheCosineItLosesSharpLobes) {
-  const GgxLobe sharp{0.01, 0.01, 0.7, 0.6};
+  const Lobe sharp{0.01, 0.01, 0.7, 0.6};
   L3Settings settings;
   settings.start = StartKind::identity;
   const LobeFrame frame(sharp);
@@ -210,7 +210,7 @@ TEST(L3NelderMead, NeverReturnsWhatIsNotFinite) {
   settings.evaluations = 100;
   for (const StartKind start : {StartKind::first_order, StartKind::identity}) {
     settings.start = start;
-    for (const GgxLobe& lobe : test::all_lobes()) {
+    for (const Lobe& lobe : test::all_lobes()) {
       const FitResult result = fit(lobe, settings);
       if (result.outcome == FitOutcome::non_finite) {
         EXPECT_TRUE(std::isnan(result.loss)) << test::describe(lobe);

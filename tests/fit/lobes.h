@@ -27,25 +27,25 @@ inline constexpr double kGrazing = 0.9999 * std::numbers::pi / 2;
 inline constexpr double kMiddleShift = 1 / std::numbers::sqrt2;
 
 // Where a fit is an ordinary problem: no roughness near zero, no grazing view.
-inline std::vector<GgxLobe> ordinary_lobes() {
+inline std::vector<Lobe> ordinary_lobes() {
   return {{0.5, 0.5, 0.0, 0.0}, {0.8, 0.3, 0.6, 0.4}, {0.3, 0.1, 1.0, 1.2}, {1.0, 0.9, 1.2, 0.8}};
 }
 
 // The corners of what the project promises to handle.
-inline std::vector<GgxLobe> extreme_lobes() {
+inline std::vector<Lobe> extreme_lobes() {
   return {{1e-4, 1e-4, 0.0, 0.0},      {1e-4, 1e-4, 0.7, 0.3},   {1e-6, 1e-6, 0.3, 1.0},
           {1e-6, 1e-6, kGrazing, 0.7}, {0.5, 1e-4, 0.8, 0.5},    {1.0, 1e-6, kGrazing, 0.2},
           {1.0, 1.0, kGrazing, 0.0},   {1.0, 0.2, kGrazing, 1.5}};
 }
 
-inline std::vector<GgxLobe> all_lobes() {
-  std::vector<GgxLobe> lobes = ordinary_lobes();
-  for (const GgxLobe& lobe : extreme_lobes())
+inline std::vector<Lobe> all_lobes() {
+  std::vector<Lobe> lobes = ordinary_lobes();
+  for (const Lobe& lobe : extreme_lobes())
     lobes.push_back(lobe);
   return lobes;
 }
 
-inline std::string describe(const GgxLobe& lobe) {
+inline std::string describe(const Lobe& lobe) {
   return fmt::format("alpha_x {} alpha_y {} theta {} phi {}", lobe.alpha_x, lobe.alpha_y,
                      lobe.theta_radians, lobe.phi_radians);
 }

@@ -20,7 +20,7 @@ namespace {
 
 // The default's fine phase: 1024 samples, 32 directions, 64 bins, 4096 target samples.
 struct Model {
-  explicit Model(const GgxLobe& lobe) : frame(lobe) {
+  explicit Model(const Lobe& lobe) : frame(lobe) {
     sample_weighted_target(frame, make_target_lattice(4096, test::kMiddleShift), samples);
     quantiles.build(samples, in_float(directions), 64, workspace.xi, workspace.bins);
   }
@@ -76,7 +76,7 @@ PointSet transformed(const CosineSet& cosines, const Eigen::Matrix3d& matrix) {
 }
 
 TEST(QuantileModel, LossAgreesWithTheSortedLoss) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     Model model(lobe);
     const auto at = [&](const Eigen::Matrix3d& p) {
       const double exact = model.reference(p).loss;
@@ -99,7 +99,7 @@ TEST(QuantileModel, LossAgreesWithTheSortedLoss) {
 // A sharp lobe near the horizon, seen along directions near the mirror's, where a thousandth of it
 // makes up a third of the mean: the loss of graded bins is the sorted one's, which even bins miss.
 TEST(QuantileModel, GradedBinsSeeTheTailsOfSharpLobes) {
-  const LobeFrame frame(GgxLobe{0.01, 1e-4, 80 * std::numbers::pi / 180, 0.0});
+  const LobeFrame frame(Lobe{0.01, 1e-4, 80 * std::numbers::pi / 180, 0.0});
   const std::vector<Eigen::Vector3d> directions = {
       {-0.137, 0.002, 0.991}, {0.120, -0.495, -0.861}, {0.345, -0.505, -0.791}};
   Eigen::Matrix3d p = frame.first_order;
@@ -127,7 +127,7 @@ TEST(QuantileModel, GradedBinsSeeTheTailsOfSharpLobes) {
 }
 
 TEST(QuantileModel, GradientAgreesWithTheReference) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     Model model(lobe);
     const Eigen::Matrix3d p = model.away_from_minimum();
     const LossAndGradient reference = model.reference(p);
@@ -148,7 +148,7 @@ TEST(QuantileModel, GradientAgreesWithTheReference) {
 }
 
 TEST(QuantileModel, ScaleMovesNothing) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     Model model(lobe);
     const Eigen::Matrix3d p = model.away_from_minimum();
     const ModelValue value = model(p, 1e-3), scaled = model(2 * p, 1e-3);
@@ -166,7 +166,7 @@ TEST(QuantileModel, ScaleMovesNothing) {
 }
 
 TEST(QuantileModel, CurvatureIsPositiveSemidefinite) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     Model model(lobe);
     const Matrix9 curvature = model(model.away_from_minimum(), 1e-3).curvature;
     // Scaled to a unit diagonal, as the solver does.
@@ -185,7 +185,7 @@ TEST(QuantileModel, CurvatureIsPositiveSemidefinite) {
 }
 
 TEST(QuantileModel, AgreesBetweenVectorUnits) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     std::vector<ModelValue> values;
     hwy::SetSupportedTargetsForTest(0);
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
@@ -205,7 +205,7 @@ TEST(QuantileModel, AgreesBetweenVectorUnits) {
 }
 
 TEST(QuantileModel, AWorkspaceRemembersNothing) {
-  const GgxLobe lobe{0.3, 0.1, 1.0, 1.2};
+  const Lobe lobe{0.3, 0.1, 1.0, 1.2};
   Model fresh(lobe), used({1, 1, 0.2, 0});
   used(used.away_from_minimum(), 1e-3);
   const ModelValue expected = fresh(fresh.away_from_minimum(), 1e-3);
@@ -218,7 +218,7 @@ TEST(QuantileModel, AWorkspaceRemembersNothing) {
 }
 
 TEST(TargetSamples, RejectedAndWeightedOnesHaveTheSameDistribution) {
-  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+  for (const Lobe& lobe : test::ordinary_lobes()) {
     const LobeFrame frame(lobe);
     TargetSamples weighted, rejected, other;
     sample_weighted_target(frame, make_target_lattice(16384), weighted);

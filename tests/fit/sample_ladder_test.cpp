@@ -86,7 +86,7 @@ TEST(SampleLadder, BinsAreWholeVectors) {
 
 TEST(LobeClass, TellsSharpAndExtremeLobes) {
   const auto frame = [](double alpha_x, double alpha_y, double theta_degrees) {
-    return LobeFrame(GgxLobe{alpha_x, alpha_y, theta_degrees * std::numbers::pi / 180, 0.3});
+    return LobeFrame(Lobe{alpha_x, alpha_y, theta_degrees * std::numbers::pi / 180, 0.3});
   };
   EXPECT_TRUE(is_sharp(frame(0.119, 0.01, 30)));
   EXPECT_FALSE(is_sharp(frame(0.121, 0.01, 30)));

@@ -12,7 +12,7 @@
 namespace ltc {
 namespace {
 
-const GgxLobe kLobe{0.5, 0.25, 0.7, 0.6};
+const Lobe kLobe{0.5, 0.25, 0.7, 0.6};
 
 // 300 steps whose sizes fall by a factor of e^-3.
 SgdSettings short_run() {

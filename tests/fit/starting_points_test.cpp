@@ -20,7 +20,7 @@ TEST(StartingPoints, HaveTheirZerosAndAPositiveDeterminantAllOverThePapersGrid) 
   const TargetLattice lattice = make_target_lattice(1024, 0.3);
   TargetSamples target;
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
-    const GgxLobe lobe = grid.lobe(flat);
+    const Lobe lobe = grid.lobe(flat);
     const LobeFrame frame(lobe);
     const FreeEntries free = free_entries(lobe);
     sample_weighted_target(frame, lattice, target);
@@ -41,7 +41,7 @@ TEST(StartingPoints, HaveTheirZerosAndAPositiveDeterminantAllOverThePapersGrid) 
 
 TEST(StartingPoints, FreeEntriesAreEquation16s) {
   constexpr double right = std::numbers::pi / 2;
-  const auto count = [](const GgxLobe& lobe) {
+  const auto count = [](const Lobe& lobe) {
     const FreeEntries free = free_entries(lobe);
     return std::count(free.begin(), free.end(), true);
   };
@@ -58,7 +58,7 @@ TEST(StartingPoints, FreeEntriesAreEquation16s) {
 
 // Loss of the first-order start relative to the lobe's spread.
 double first_order_share(double alpha, double theta, double phi) {
-  const GgxLobe lobe{alpha, 0.5 * alpha, theta, phi};
+  const Lobe lobe{alpha, 0.5 * alpha, theta, phi};
   const LobeFrame frame(lobe);
   const CosineSet cosines = make_cosine_set(4096);
   TargetSamples target;
@@ -91,7 +91,7 @@ TEST(StartingPoints, FirstOrderBecomesExactAsTheRoughnessVanishes) {
 }
 
 TEST(StartingPoints, IdentityIsTheClampedCosineItself) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     const LobeFrame frame(lobe);
     const Eigen::Matrix3d m = frame.to_matrix(identity_start(frame));
     EXPECT_LT((m - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-12)
@@ -100,7 +100,7 @@ TEST(StartingPoints, IdentityIsTheClampedCosineItself) {
 }
 
 TEST(StartingPoints, MomentStartHasTheLobesMeanDirectionAndWidth) {
-  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+  for (const Lobe& lobe : test::ordinary_lobes()) {
     const LobeFrame frame(lobe);
     TargetSamples target;
     sample_weighted_target(frame, make_target_lattice(4096, 0.3), target);
@@ -133,7 +133,7 @@ TEST(StartingPoints, RandomStartsDependOnTheSeedAlone) {
 }
 
 TEST(StartingPoints, AdmissibleTurnsAMirroredMatrixWithoutMovingItsLobe) {
-  const GgxLobe lobe{0.5, 0.3, 0.8, 0.5};
+  const Lobe lobe{0.5, 0.3, 0.8, 0.5};
   const Eigen::Matrix3d p = LobeFrame(lobe).first_order;
   Eigen::Matrix3d mirrored = p;
   mirrored.col(1) = -mirrored.col(1);

@@ -39,7 +39,7 @@ TEST(SymmetryPlan, EntriesShareARepresentativeExactlyIfTheirLobesAreTurnsOfEachO
   const Grid grid = Grid::paper(4);
   const std::vector<PlannedEntry> plan = plan_by_symmetry(grid);
   const auto equal = [&](std::size_t a, std::size_t b) {
-    const GgxLobe l = grid.lobe(a), m = grid.lobe(b);
+    const Lobe l = grid.lobe(a), m = grid.lobe(b);
     return l.alpha_x == m.alpha_x && l.alpha_y == m.alpha_y && l.theta_radians == m.theta_radians &&
            (l.phi_radians == m.phi_radians || l.theta_radians == 0 || l.alpha_x == l.alpha_y);
   };
@@ -57,8 +57,8 @@ TEST(SymmetryPlan, TurnsTheViewOfTheRepresentativeIntoTheEntrysOwn) {
   const std::vector<PlannedEntry> plan = plan_by_symmetry(grid);
   bool some_turned = false;
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
-    const GgxLobe lobe = grid.lobe(flat);
-    const GgxLobe source = grid.lobe(plan[flat].representative);
+    const Lobe lobe = grid.lobe(flat);
+    const Lobe source = grid.lobe(plan[flat].representative);
     const double c = std::cos(plan[flat].turn_radians), s = std::sin(plan[flat].turn_radians);
     const Eigen::Vector3d v = source.omega_v();
     const Eigen::Vector3d view(c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z());
@@ -117,7 +117,7 @@ TEST(SymmetryPlan, ACopyIsAsGoodAsAFitOfItsOwn) {
     EXPECT_NEAR(copy / direct, 1, 0.1) << test::describe(grid.lobe(flat));
     // A wrong turn is found out, but at alpha = 1, where D is constant and the lobe, a function of
     // the light's elevation alone, does not lean.
-    const GgxLobe lobe = grid.lobe(flat);
+    const Lobe lobe = grid.lobe(flat);
     if (entry.turn_radians != 0 && lobe.theta_radians > 0 && lobe.alpha_x < 1) {
       EXPECT_GT(judge.loss(turned(source, -entry.turn_radians)), 2 * direct)
           << test::describe(lobe);

@@ -23,7 +23,7 @@
 namespace ltc {
 namespace {
 
-const GgxLobe kRough{0.5, 0.2, 0.8, 0.6};
+const Lobe kRough{0.5, 0.2, 0.8, 0.6};
 
 bool covers(const AreaLightJudge::Quad& quad, const Eigen::Vector3d& omega) {
   for (std::size_t i = 0; i < 4; ++i)
@@ -34,7 +34,7 @@ bool covers(const AreaLightJudge::Quad& quad, const Eigen::Vector3d& omega) {
 
 TEST(AreaLight, FractionsAreThoseOfRejectionSampling) {
   AreaLightJudge judge;
-  for (const GgxLobe& lobe : {kRough, GgxLobe{1, 1, 1.4, 0}, GgxLobe{0.02, 0.3, 0.3, 2}}) {
+  for (const Lobe& lobe : {kRough, Lobe{1, 1, 1.4, 0}, Lobe{0.02, 0.3, 0.3, 2}}) {
     judge.set_lobe(lobe);
     const GgxSampler sampler(lobe);
     Random random(1);
@@ -60,7 +60,7 @@ TEST(AreaLight, FractionsAreThoseOfRejectionSampling) {
 TEST(AreaLight, ALobeThatAnLtcCanBeHasNoError) {
   AreaLightJudge judge;
   // To first order in the roughness the closed form is GGX.
-  const GgxLobe sharp{1e-3, 4e-4, 0.7, 0.4};
+  const Lobe sharp{1e-3, 4e-4, 0.7, 0.4};
   judge.set_lobe(sharp);
   const Eigen::Matrix3d exact = testing::first_order_matrix(sharp);
   // The lobe's curvature is a share alpha of it; the mean of |noise| is below its deviation.
@@ -120,7 +120,7 @@ TEST(AreaLight, TheStatedErrorOfTheSamplesIsTheirs) {
 
 TEST(AreaLight, TheAmplitudeCountsWhereItIsGiven) {
   AreaLightJudge judge;
-  const GgxLobe sharp{1e-3, 4e-4, 0.7, 0.4};
+  const Lobe sharp{1e-3, 4e-4, 0.7, 0.4};
   judge.set_lobe(sharp);
   const Eigen::Matrix3d matrix = testing::first_order_matrix(sharp);
   const AreaLightError own = judge.error(matrix), same = judge.error(matrix, judge.amplitude());
@@ -192,7 +192,7 @@ TEST(AreaLight, ThePublishedTableErrsByTwoPercentOfTheLight) {
     const double root = 0.1 + 0.9 * random.uniform();
     const double alpha = root * root, lambda = random.uniform();
     const double theta = std::acos(random.uniform());
-    const GgxLobe lobe{alpha, std::max(lambda * alpha, 1e-4), theta,
+    const Lobe lobe{alpha, std::max(lambda * alpha, 1e-4), theta,
                        std::numbers::pi / 2 * random.uniform()};
     judge.set_lobe(lobe, static_cast<std::uint64_t>(i));
     mean += judge.error(look_up(table, lobe).matrix).mean_absolute / queries;

@@ -19,7 +19,7 @@ constexpr std::size_t kSamples = 2048, kDirections = 16;
 constexpr std::uint64_t kSeed = 20220712;
 
 // The judge's own sets, put together again in double: its lattices are shifted by the seed.
-PointSet target_in_double(const GgxLobe& lobe) {
+PointSet target_in_double(const Lobe& lobe) {
   const TargetLattice lattice =
       make_target_lattice(kSamples, 0.713 + 1e-3 * static_cast<double>(kSeed % 991));
   const GgxSampler sampler(lobe);
@@ -38,7 +38,7 @@ TEST(HeldOut, AgreesWithTheReferenceInDouble) {
       test::in_double(make_cosine_set(kSamples, 0.237 + 1e-3 * static_cast<double>(kSeed % 997)));
   const std::vector<Eigen::Vector3d> directions = turned_directions(kDirections, kSeed);
   HeldOutJudge judge(kSamples, kDirections, kSeed);
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     const LobeFrame frame(lobe);
     judge.set_lobe(lobe);
     const SlicedWassersteinLoss loss(omega_o, target_in_double(lobe), directions);
@@ -56,7 +56,7 @@ TEST(HeldOut, AgreesWithTheReferenceInDouble) {
 }
 
 TEST(HeldOut, SpreadIsTheDistanceToTheBestSingleDirection) {
-  const GgxLobe lobe{0.5, 0.2, 0.6, 0.4};
+  const Lobe lobe{0.5, 0.2, 0.6, 0.4};
   HeldOutJudge judge(kSamples, 1, 5);
   judge.set_lobe(lobe);
   // Along one direction no point is nearer to the lobe than its median.
@@ -73,7 +73,7 @@ TEST(HeldOut, FittedMatricesLoseLessThanPerturbedOnes) {
   HeldOutJudge judge(4096, 32);
   const std::unique_ptr<Solver> solver = make_solver({});
   FitWorkspacePointer workspace = make_fit_workspace();
-  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+  for (const Lobe& lobe : test::ordinary_lobes()) {
     judge.set_lobe(lobe);
     FitRequest request;
     request.lobe = lobe;
@@ -96,7 +96,7 @@ TEST(HeldOut, FittedMatricesLoseLessThanPerturbedOnes) {
 TEST(HeldOut, ItsDirectionsSpeakForAll) {
   HeldOutJudge judge(4096), of_many(4096, 2048), of_few(4096, 4);
   double largest = 0, largest_of_few = 0;
-  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+  for (const Lobe& lobe : test::ordinary_lobes()) {
     const LobeFrame frame(lobe);
     const Eigen::Matrix3d m = frame.to_matrix(first_order_start(frame));
     for (HeldOutJudge* each : {&judge, &of_many, &of_few})
@@ -122,7 +122,7 @@ TEST(HeldOut, AMatrixThatIsNotFiniteHasNoLoss) {
 
 TEST(HeldOut, APairIsJudgedAsEachByItself) {
   HeldOutJudge judge(kSamples, kDirections, kSeed);
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     const Eigen::Matrix3d a = LobeFrame(lobe).to_matrix(first_order_start(LobeFrame(lobe)));
     const Eigen::Matrix3d b = a * Eigen::Vector3d(1.2, 0.9, 1).asDiagonal();
     const PairJudgement pair = judge.judge_pair(lobe, a, b);
@@ -147,7 +147,7 @@ TEST(HeldOut, TheDistanceOfAPairIsThatOfTheReferenceInDouble) {
     return set;
   };
   HeldOutJudge judge(kSamples, kDirections, kSeed);
-  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+  for (const Lobe& lobe : test::ordinary_lobes()) {
     const Eigen::Matrix3d a = LobeFrame(lobe).to_matrix(first_order_start(LobeFrame(lobe)));
     Eigen::Matrix3d b = a;
     b.col(0) *= 1.1;

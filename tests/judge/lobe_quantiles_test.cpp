@@ -13,16 +13,16 @@
 namespace ltc {
 namespace {
 
-const std::vector<GgxLobe> lobes = {
+const std::vector<Lobe> lobes = {
     {1e-4, 1e-4, 0.7, 0.3}, {0.1, 0.1, 0.2, 0.9}, {0.3, 0.05, 1.2, 0.6}, {1, 0.5, 0.9, 1.2}};
 
 // The list of one lobe.
-std::vector<float> ggx(LobeQuantiles& quantiles, const GgxLobe& lobe) {
+std::vector<float> ggx(LobeQuantiles& quantiles, const Lobe& lobe) {
   std::vector<float> list(quantiles.size());
   quantiles.of_ggx(LobeFrame(lobe), list.data());
   return list;
 }
-std::vector<float> ltc(LobeQuantiles& quantiles, const GgxLobe& lobe,
+std::vector<float> ltc(LobeQuantiles& quantiles, const Lobe& lobe,
                        const Eigen::Matrix3d& matrix) {
   std::vector<float> list(quantiles.size());
   quantiles.of_ltc(LobeFrame(lobe), matrix, list.data());
@@ -32,7 +32,7 @@ std::vector<float> ltc(LobeQuantiles& quantiles, const GgxLobe& lobe,
 TEST(LobeQuantiles, TheDistanceToGgxIsTheHeldOutLossButForTheTails) {
   LobeQuantiles quantiles(4096, 64, 32);
   HeldOutJudge judge(16384, 64);
-  for (const GgxLobe& lobe : lobes) {
+  for (const Lobe& lobe : lobes) {
     const Eigen::Matrix3d matrix = testing::first_order_matrix(lobe);
     judge.set_lobe(lobe);
     const std::vector<float> a = ggx(quantiles, lobe), b = ltc(quantiles, lobe, matrix);
@@ -46,7 +46,7 @@ TEST(LobeQuantiles, TheDistanceToGgxIsTheHeldOutLossButForTheTails) {
 
 TEST(LobeQuantiles, SeesTheLobeAndNotTheMatrix) {
   LobeQuantiles quantiles(4096, 32, 32);
-  for (const GgxLobe& lobe : lobes) {
+  for (const Lobe& lobe : lobes) {
     const Eigen::Matrix3d matrix = testing::first_order_matrix(lobe);
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).toRotationMatrix();

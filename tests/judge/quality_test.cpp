@@ -245,7 +245,7 @@ QualityReport area_lights_of(std::size_t quads, std::size_t samples) {
   settings.quads = quads;
   settings.quad_samples = samples;
   std::vector<QueryFloor> floors;
-  for (const GgxLobe& lobe : random_queries(settings.range, 600, 1, table.grid.alpha_min)) {
+  for (const Lobe& lobe : random_queries(settings.range, 600, 1, table.grid.alpha_min)) {
     floors.emplace_back();
     floors.back().lobe = lobe;
   }

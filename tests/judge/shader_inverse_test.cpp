@@ -37,7 +37,7 @@ Eigen::Matrix3d matrix_of(const LobeFrame& frame) {
 
 TEST(ShaderInverse, SinglePrecisionKeepsOrdinaryLobesInEveryOrder) {
   InversionMeter meter(512, 8);
-  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+  for (const Lobe& lobe : test::ordinary_lobes()) {
     const LobeFrame frame(lobe);
     const Eigen::Matrix3d m = matrix_of(frame);
     for (const Storage storage : all_storages)
@@ -55,7 +55,7 @@ TEST(ShaderInverse, SinglePrecisionKeepsOrdinaryLobesInEveryOrder) {
 
 TEST(ShaderInverse, HalfPrecisionMovesThem) {
   InversionMeter meter(512, 8);
-  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+  for (const Lobe& lobe : test::ordinary_lobes()) {
     const LobeFrame frame(lobe);
     const Eigen::Matrix3d m = matrix_of(frame);
     const double in_memory =
@@ -75,7 +75,7 @@ TEST(ShaderInverse, HalfPrecisionMovesThem) {
 
 TEST(ShaderInverse, FactoringOutTheRoughnessKeepsNarrowLobesInHalfPrecision) {
   // alpha_x alpha_y is below what half precision can hold.
-  const GgxLobe lobe{1e-4, 1e-4, 0.6, 0.4};
+  const Lobe lobe{1e-4, 1e-4, 0.6, 0.4};
   const LobeFrame frame(lobe);
   const Eigen::Matrix3d m = matrix_of(frame),
                         stored = stored_from_matrix(Storage::mirror_frame, m, lobe);
@@ -177,7 +177,7 @@ vec3 vertex_to_cosine(const mat3& inverse, vec3 p, const Eigen::Vector2f& signs,
 struct Lit {
   double by_snippet, exact;
 };
-Lit light(Storage storage, const GgxLobe& lobe, double size) {
+Lit light(Storage storage, const Lobe& lobe, double size) {
   const FoldedLobe folded = fold(lobe);
   const Eigen::Matrix3d m_folded = matrix_of(LobeFrame(folded.lobe));
   const Eigen::Matrix3f s = stored_from_matrix(storage, m_folded, folded.lobe).cast<float>();
@@ -202,8 +202,8 @@ Lit light(Storage storage, const GgxLobe& lobe, double size) {
 constexpr double kPi = std::numbers::pi;
 
 // All quadrants, both ways of anisotropy, mirrored and not.
-std::vector<GgxLobe> lobes_to_fold() {
-  std::vector<GgxLobe> lobes;
+std::vector<Lobe> lobes_to_fold() {
+  std::vector<Lobe> lobes;
   for (const double phi : {0.4, kPi - 0.4, kPi + 1.1, 2 * kPi - 0.9})
     for (const auto& [alpha_x, alpha_y] : {std::pair{0.6, 0.2}, {0.2, 0.6}, {0.05, 0.04}})
       lobes.push_back({alpha_x, alpha_y, 1.1, phi});
@@ -211,7 +211,7 @@ std::vector<GgxLobe> lobes_to_fold() {
 }
 
 TEST(ShaderInverse, TheDocumentedSnippetsTakeLightsToTheCosine) {
-  for (const GgxLobe& lobe : lobes_to_fold())
+  for (const Lobe& lobe : lobes_to_fold())
     for (const Storage storage : all_storages)
       for (const double size : {2.0, 0.1}) {
         const Lit lit = light(storage, lobe, size);

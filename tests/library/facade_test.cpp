@@ -50,7 +50,7 @@ TEST(Facade, MakesWritesReadsAndLooksUpATable) {
     EXPECT_EQ(table.axis(2), expected.grid.theta.nodes);
     EXPECT_TRUE(std::ranges::equal(table.stored(), expected.stored));
     EXPECT_EQ(table.matrix({1, 0, 2, 1}), expected.matrix_at(expected.grid.flat({1, 0, 2, 1})));
-    const ltc::GgxLobe lobe{0.3, 0.6, 0.7, 4.0};
+    const ltc::Lobe lobe{0.3, 0.6, 0.7, 4.0};
     EXPECT_EQ(table.look_up({0.3, 0.6, 0.7, 4.0}).matrix, ltc::look_up(expected, lobe).matrix);
   }
   EXPECT_THROW(made.write(folder / "t.png"), InputError);

@@ -152,7 +152,7 @@ std::vector<LobeFrame> frames() {
   for (const double alpha_x : logarithmic(1e-6, 1, 4))
     for (const double alpha_y : logarithmic(1e-6, 1, 4))
       for (const double theta : {0.0, 1e-3, 0.7, 1.4, radians_of_degrees(89.999)})
-        frames.emplace_back(GgxLobe{alpha_x, alpha_y, theta, 0.7});
+        frames.emplace_back(Lobe{alpha_x, alpha_y, theta, 0.7});
   return frames;
 }
 

@@ -141,7 +141,7 @@ TEST(FitOne, WatchesEveryFit) {
 }
 
 TEST(FitOne, LobeByItself) {
-  const GgxLobe lobe{0.5, 0.2, 0.9, 0.4};
+  const Lobe lobe{0.5, 0.2, 0.9, 0.4};
   const Config config;
   const LobeFit own = fit_lobe(config, lobe, 1, std::nullopt);
   EXPECT_EQ(own.fitted.status, Status::fitted);
@@ -159,7 +159,7 @@ TEST(FitOne, LobeByItself) {
 }
 
 TEST(FitOne, GradientChecksPassAfterTheFit) {
-  for (const GgxLobe& lobe : test::ordinary_lobes()) {
+  for (const Lobe& lobe : test::ordinary_lobes()) {
     const LobeFit fit = fit_lobe(Config(), lobe, 1, std::nullopt);
     const GradientCheck check = check_lobe_gradient(lobe, fit.matrix);
     EXPECT_TRUE(check.passed) << test::describe(lobe) << ": " << check.describe();

@@ -28,7 +28,7 @@ Grid small_grid() {
 std::vector<Eigen::Matrix3d> matrices(const Grid& grid, Storage storage = Storage::matrix) {
   std::vector<Eigen::Matrix3d> stored;
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
-    const GgxLobe lobe = grid.lobe(flat);
+    const Lobe lobe = grid.lobe(flat);
     stored.push_back(stored_from_matrix(storage, testing::first_order_matrix(lobe), lobe));
     // At theta = 90 degrees the first two columns are almost one.
     stored.back().topLeftCorner<2, 2>().diagonal().array() +=
@@ -94,7 +94,7 @@ Broken broken(const Grid& grid, const std::vector<Eigen::Matrix3d>& stored) {
   swap << 0, 1, 0, 1, 0, 0, 0, 0, 1;
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
     NodeIndex node = grid.node(flat);
-    const GgxLobe lobe = grid.lobe(node);
+    const Lobe lobe = grid.lobe(node);
     const auto zeros = symmetry_zeros(lobe.theta_radians, lobe.phi_radians);
     for (int i = 0; i < 9; ++i)
       if (zeros(i / 3, i % 3))

@@ -17,15 +17,15 @@
 namespace ltc {
 namespace {
 
-const GgxLobe kLobes[] = {
+const Lobe kLobes[] = {
     {0.5, 0.2, 0.8, 0.6}, {0.05, 0.25, 0.4, 2.0}, {1, 0.3, 1.3, 4.0}, {0.3, 0.3, 0, 0}};
 
 // A light that the mirror direction leads past, and one that stands across the horizon.
-RectangleLight beside_mirror(const GgxLobe& lobe) {
+RectangleLight beside_mirror(const Lobe& lobe) {
   const Eigen::Vector3d v = lobe.omega_v();
   return SphereScene::facing_origin({-v.x() - 0.2, -v.y() - 0.1, v.z() + 0.1}, 0.5, 0.3);
 }
-RectangleLight across_horizon(const GgxLobe& lobe) {
+RectangleLight across_horizon(const Lobe& lobe) {
   const Eigen::Vector3d v = lobe.omega_v();
   return SphereScene::facing_origin({-v.x() - 0.3, -v.y(), 0.2}, 0.6, 0.6);
 }
@@ -36,7 +36,7 @@ const RectangleLight kSky{{0, 0, 1}, {0, 1e6, 0}, {1e6, 0, 0}};
 struct Estimate {
   double mean, standard_error;
 };
-Estimate estimate(Technique technique, const GgxLobe& lobe, double f0,
+Estimate estimate(Technique technique, const Lobe& lobe, double f0,
                   const RectangleLight& light) {
   constexpr int replicates = 64;
   const ReferenceIntegrator integrator(64, technique);
@@ -61,7 +61,7 @@ bool agree(const Estimate& a, const Estimate& b) {
 }
 
 TEST(Reference, AllTechniquesHaveOneMean) {
-  for (const GgxLobe& lobe : kLobes)
+  for (const Lobe& lobe : kLobes)
     for (const RectangleLight& light : {beside_mirror(lobe), across_horizon(lobe)}) {
       const Estimate both = estimate(Technique::both, lobe, 0.2, light);
       const Estimate area = estimate(Technique::light, lobe, 0.2, light);
@@ -80,7 +80,7 @@ TEST(Reference, AllTechniquesHaveOneMean) {
 
 TEST(Reference, LightFromEverywhereGivesTheAlbedo) {
   const AlbedoRule rule;
-  for (const GgxLobe& lobe : kLobes) {
+  for (const Lobe& lobe : kLobes) {
     const Albedo albedo = integrate_albedo(lobe, rule);
     for (const double f0 : {1.0, 0.0}) {
       const Estimate sky = estimate(Technique::both, lobe, f0, kSky);
@@ -112,7 +112,7 @@ TEST(LtcRadiance, IsTheShareOfTheLobesSamplesOnTheLight) {
   // Each quadrant of phi and both orders of the roughnesses, so that the look-up mirrors.
   for (int i = 0; i < 8; ++i) {
     const double phi = 0.5 + 1.5707963267948966 * (i % 4);
-    const GgxLobe lobe{i < 4 ? 0.5 : 0.3, i < 4 ? 0.3 : 0.5, 0.7, phi};
+    const Lobe lobe{i < 4 ? 0.5 : 0.3, i < 4 ? 0.3 : 0.5, 0.7, phi};
     const Eigen::Vector3d v = lobe.omega_v();
     const RectangleLight light =
         SphereScene::facing_origin({-v.x(), -v.y(), 0.7 * v.z()}, 0.4, 0.6);
@@ -144,7 +144,7 @@ TEST(LtcRadiance, IsTheShareOfTheLobesSamplesOnTheLight) {
 TEST(LtcRadiance, LightFromEverywhereGivesTheAlbedo) {
   const Table table = testing::synthetic_table(Grid::paper(3), Storage::matrix);
   // A view from above: the lobe lies in the upper hemisphere.
-  const GgxLobe lobe{0.5, 0.25, 0, 0};
+  const Lobe lobe{0.5, 0.25, 0, 0};
   const LookUp found = look_up(table, lobe);
   for (const double f0 : {0.0, 0.25, 1.0})
     // The strip that the light leaves free, 1e-6 high.
@@ -160,7 +160,7 @@ TEST(LtcRadiance, IsGgxWhereGgxIsAnLtc) {
   grid.theta = Axis::make(0.6, 0.6, 1, Warp::linear);
   grid.phi = Axis::make(0.4, 0.4, 1, Warp::linear);
   Table table = testing::synthetic_table(grid, Storage::matrix);
-  const GgxLobe lobe{0.01, 0.005, 0.6, 0.4};
+  const Lobe lobe{0.01, 0.005, 0.6, 0.4};
   table.amplitude[0] = static_cast<float>(integrate_albedo(lobe, AlbedoRule()).amplitude);
   // Its edge runs through the lobe.
   const Eigen::Vector3d v = lobe.omega_v();

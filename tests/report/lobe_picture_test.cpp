@@ -33,13 +33,13 @@ double integral(const picture::Field& field, const LobeWindow& window) {
   return sum * pixel_solid_angle(window, field.width);
 }
 
-Eigen::Matrix3d first_order_matrix(const GgxLobe& lobe) {
+Eigen::Matrix3d first_order_matrix(const Lobe& lobe) {
   const LobeFrame frame(lobe);
   return frame.to_matrix(first_order_start(frame));
 }
 
 // The share of a lobe's weighted samples that a window contains; fresh random numbers.
-double ggx_share(const GgxLobe& lobe, const LobeWindow& window) {
+double ggx_share(const Lobe& lobe, const LobeWindow& window) {
   const GgxSampler sampler(lobe);
   Random random(7);
   double inside = 0, all = 0;
@@ -77,9 +77,9 @@ TEST(LobePicture, ProjectionKeepsAnglesAndAreas) {
 
 TEST(LobePicture, DensitiesIntegrateToOneOverTheHemisphere) {
   // Lobes that a picture resolves, and ridges of a fiftieth of a pixel and less.
-  for (const GgxLobe& lobe :
-       {GgxLobe{1, 1, 0, 0}, GgxLobe{0.6, 0.4, 0.5, 0.3}, GgxLobe{0.43, 1e-4, 0.8, 0.9},
-        GgxLobe{0.43, 1e-4, 1.5, 0.9}, GgxLobe{1e-3, 1e-3, 0.8, 0.9}}) {
+  for (const Lobe& lobe :
+       {Lobe{1, 1, 0, 0}, Lobe{0.6, 0.4, 0.5, 0.3}, Lobe{0.43, 1e-4, 0.8, 0.9},
+        Lobe{0.43, 1e-4, 1.5, 0.9}, Lobe{1e-3, 1e-3, 0.8, 0.9}}) {
     const LobeWindow window = hemisphere_window();
     // Pixels at the rim count in full or not at all; at most 2 % of the pixels, where lobes are
     // dim. Within a pixel four points, or 2^20 samples: together 1 %.
@@ -93,8 +93,8 @@ TEST(LobePicture, DensitiesIntegrateToOneOverTheHemisphere) {
 }
 
 TEST(LobePicture, DensitiesOfAZoomedWindowIntegrateToItsShare) {
-  for (const GgxLobe& lobe : {GgxLobe{0.05, 0.005, 1, 0.5}, GgxLobe{1e-4, 1e-4, 0.7, 0.3},
-                              GgxLobe{1e-6, 1e-6, 0.3, 1}, GgxLobe{0.02, 1e-6, 0.8, 0.5}}) {
+  for (const Lobe& lobe : {Lobe{0.05, 0.005, 1, 0.5}, Lobe{1e-4, 1e-4, 0.7, 0.3},
+                              Lobe{1e-6, 1e-6, 0.3, 1}, Lobe{0.02, 1e-6, 0.8, 0.5}}) {
     const Eigen::Matrix3d matrix = first_order_matrix(lobe);
     const LobeWindow window = choose_window(lobe, matrix);
     ASSERT_FALSE(window.hemisphere) << test::describe(lobe);
@@ -108,7 +108,7 @@ TEST(LobePicture, DensitiesOfAZoomedWindowIntegrateToItsShare) {
 }
 
 TEST(LobePicture, DensityOfAPixelIsThatOfItsMiddleWhereTheLobeIsSmooth) {
-  const GgxLobe lobe{0.6, 0.4, 0.5, 0.3};
+  const Lobe lobe{0.6, 0.4, 0.5, 0.3};
   const Eigen::Matrix3d matrix = first_order_matrix(lobe);
   const LinearlyTransformed ltc(matrix);
   const picture::Field field = ltc_density(matrix, lobe, hemisphere_window(), side);
@@ -127,7 +127,7 @@ TEST(LobePicture, DensityOfAPixelIsThatOfItsMiddleWhereTheLobeIsSmooth) {
 }
 
 TEST(LobePicture, WindowHoldsBothLobes) {
-  for (const GgxLobe& lobe : test::all_lobes()) {
+  for (const Lobe& lobe : test::all_lobes()) {
     const Eigen::Matrix3d matrix = first_order_matrix(lobe);
     const LobeWindow window = choose_window(lobe, matrix);
     // At most 8 % outside by construction; sampling leaves 2 % to spare.
@@ -140,7 +140,7 @@ TEST(LobePicture, WindowHoldsBothLobes) {
 }
 
 TEST(LobePicture, WindowZoomsInOnSmallLobesAndNotOnBroadOnes) {
-  const auto window_of = [](const GgxLobe& lobe) {
+  const auto window_of = [](const Lobe& lobe) {
     return choose_window(lobe, first_order_matrix(lobe));
   };
   EXPECT_TRUE(window_of({0.5, 0.5, 0.5, 0.3}).hemisphere);
@@ -153,7 +153,7 @@ TEST(LobePicture, WindowZoomsInOnSmallLobesAndNotOnBroadOnes) {
 }
 
 TEST(LobePicture, WindowFollowsAMisplacedLtc) {
-  const GgxLobe lobe{0.01, 0.01, 0.5, 0};
+  const Lobe lobe{0.01, 0.01, 0.5, 0};
   const Eigen::Matrix3d right = first_order_matrix(lobe);
   const Eigen::Matrix3d wrong = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()) * right;
   EXPECT_GE(ltc_share(wrong, choose_window(lobe, wrong)), 0.9);
@@ -161,7 +161,7 @@ TEST(LobePicture, WindowFollowsAMisplacedLtc) {
 }
 
 TEST(LobePicture, ScaleIsLogarithmicForSharpLobes) {
-  const auto kind_of = [](const GgxLobe& lobe, const LobeWindow& window) {
+  const auto kind_of = [](const Lobe& lobe, const LobeWindow& window) {
     const picture::Field ggx = ggx_density(lobe, window, side);
     return density_scale(ggx, ggx).kind();
   };
@@ -179,7 +179,7 @@ TEST(LobePicture, ScaleHoldsThePeaksOfBoth) {
 }
 
 TEST(LobePicture, WithoutAMatrixTheLtcIsMissing) {
-  const GgxLobe lobe{0.3, 0.2, 0.5, 0.3};
+  const Lobe lobe{0.3, 0.2, 0.5, 0.3};
   const Eigen::Matrix3d none = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
   for (const Eigen::Matrix3d& matrix : {none, Eigen::Matrix3d::Zero().eval()}) {
     const picture::PanelRow row = lobe_panels(lobe, matrix, {}, 32);
@@ -193,7 +193,7 @@ TEST(LobePicture, WithoutAMatrixTheLtcIsMissing) {
 }
 
 TEST(LobePicture, DifferenceIsThatOfThePanels) {
-  const GgxLobe lobe{0.3, 0.2, 0.5, 0.3};
+  const Lobe lobe{0.3, 0.2, 0.5, 0.3};
   const picture::PanelRow row = lobe_panels(lobe, first_order_matrix(lobe), {"title"}, 32);
   EXPECT_EQ(row.words.title, "title");
   EXPECT_EQ(row.panels[0].scale, row.panels[1].scale);

@@ -47,7 +47,7 @@ std::string text_of(const std::variant<RoughnessBox, PerceptualRoughness>& rough
 template <typename Action>
 void for_each_touched(const Grid& grid, const LobeRoughness& roughness, double theta_radians,
                       double phi_radians, Action action) {
-  const GgxLobe lobe{roughness.alpha_x, roughness.alpha_y, theta_radians, phi_radians};
+  const Lobe lobe{roughness.alpha_x, roughness.alpha_y, theta_radians, phi_radians};
   const Interpolation corners = interpolation(grid, fold(lobe).lobe);
   for (std::size_t i = 0; i < corners.nodes.size(); ++i)
     if (corners.weights[i] != 0)

@@ -14,7 +14,7 @@
 namespace ltc {
 namespace {
 
-Eigen::Matrix3d first_order(const GgxLobe& lobe) {
+Eigen::Matrix3d first_order(const Lobe& lobe) {
   const LobeFrame frame(lobe);
   return frame.to_matrix(admissible(frame.first_order, free_entries(lobe)));
 }
@@ -24,8 +24,8 @@ Eigen::Matrix3d first_order(const GgxLobe& lobe) {
 TEST(GradedJudge, SeesThatSharpLobesAreExact) {
   GradedJudge judge(8192, 32, 1);
   HeldOutJudge equally_weighted(8192, 32, 1);
-  for (const GgxLobe& lobe :
-       {GgxLobe{1e-6, 1e-6, 0, 0}, GgxLobe{1e-5, 1e-6, 0.9, 0.4}, GgxLobe{1e-6, 1e-12, 0.5, 1.2}}) {
+  for (const Lobe& lobe :
+       {Lobe{1e-6, 1e-6, 0, 0}, Lobe{1e-5, 1e-6, 0.9, 0.4}, Lobe{1e-6, 1e-12, 0.5, 1.2}}) {
     judge.set_lobe(lobe);
     equally_weighted.set_lobe(lobe);
     EXPECT_LT(judge.loss(first_order(lobe)), 0.007 * judge.spread());
@@ -38,7 +38,7 @@ TEST(GradedJudge, SeesThatSharpLobesAreExact) {
 // A lobe 5 % too wide is off by about 5 % of its spread.
 TEST(GradedJudge, SeesWhatIsWrong) {
   GradedJudge judge(4096, 32, 1);
-  const GgxLobe lobe{1e-4, 1e-5, 0.7, 0.3};
+  const Lobe lobe{1e-4, 1e-5, 0.7, 0.3};
   judge.set_lobe(lobe);
   Eigen::Matrix3d wide = first_order(lobe);
   wide.leftCols<2>() *= 1.05;
@@ -48,7 +48,7 @@ TEST(GradedJudge, SeesWhatIsWrong) {
 
 // On a rough lobe both judges have little noise: they differ by directions and samples alone.
 TEST(GradedJudge, AgreesWithTheJudgeOfTables) {
-  const GgxLobe lobe{0.5, 0.3, 0.6, 0.4};
+  const Lobe lobe{0.5, 0.3, 0.6, 0.4};
   const Eigen::Matrix3d matrix = first_order(lobe);
   GradedJudge graded(8192, 64, 7);
   HeldOutJudge held_out(8192, 64, 7);

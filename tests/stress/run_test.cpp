@@ -69,7 +69,7 @@ TEST(Stress, SameBitsWithAnyNumberOfThreads) {
 // ---- Starts ----
 
 TEST(StressStarts, AreAllDifferentAndAsNamed) {
-  const GgxLobe lobe{0.01, 0.001, 0.9, 0.4};
+  const Lobe lobe{0.01, 0.001, 0.9, 0.4};
   std::set<std::string> names;
   std::vector<Eigen::Matrix3d> matrices;
   for (const StressStartKind& kind : stress_starts()) {

@@ -26,7 +26,7 @@ std::vector<std::string> faults_of(const Table& table) {
     const auto fault = [&](std::string_view what, double value) {
       faults.push_back(fmt::format("entry {}: {} {}", flat, what, value));
     };
-    const GgxLobe lobe = table.grid.lobe(flat);
+    const Lobe lobe = table.grid.lobe(flat);
     const Eigen::Matrix3d stored = table.stored_at(flat), matrix = table.matrix_at(flat);
     if (!has_values(table.status[flat]))
       fault("status", static_cast<double>(table.status[flat]));

@@ -21,7 +21,7 @@ Table good_table(Storage storage) {
   const Grid grid = Grid::paper(3);
   Table table = testing::synthetic_table(grid, storage);
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
-    const GgxLobe lobe = grid.lobe(flat);
+    const Lobe lobe = grid.lobe(flat);
     Eigen::Matrix3d matrix = table.stored_at(flat);
     enforce_symmetry(lobe.theta_radians, lobe.phi_radians, matrix);
     table.set_stored(flat, matrix);

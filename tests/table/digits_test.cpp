@@ -24,7 +24,7 @@ TEST(TableDigits, MirrorRotationOfAGrazingView) {
   WorstError careful, naive;
   for (const double elevation : logarithmic(radians_of_degrees(0.001), 1, 20))
     for (const double phi : {0.0, 1e-3, 0.7}) {
-      const Eigen::Vector3d v = GgxLobe{1, 1, std::numbers::pi / 2 - elevation, phi}.omega_v();
+      const Eigen::Vector3d v = Lobe{1, 1, std::numbers::pi / 2 - elevation, phi}.omega_v();
       // x from y and z, whose digits tell it; the other way round they do not.
       const Wide y = v.y(), z = v.z(), x_squared = Wide(1) - y * y - z * z;
       const Wide expected = Wide(1) - x_squared / (Wide(1) + z);

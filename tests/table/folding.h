@@ -12,7 +12,7 @@ namespace ltc::testing {
 
 // Equations (13) to (15): the node itself, alpha_x >= alpha_y and phi in [0, pi/2], in all four
 // quadrants, then each with its roughnesses swapped.
-inline std::array<GgxLobe, 8> lobes_that_fold_to(const GgxLobe& node) {
+inline std::array<Lobe, 8> lobes_that_fold_to(const Lobe& node) {
   constexpr double pi = std::numbers::pi;
   const auto [alpha, smaller, theta, phi] = node;
   return {{{alpha, smaller, theta, phi},

@@ -31,7 +31,7 @@ Config config_of(Storage storage) {
 // A query, what a fit of its own comes to, and what is found in a table.
 struct Case {
   HeldOutJudge& judge;
-  GgxLobe node, query;
+  Lobe node, query;
   double direct_loss;
 };
 
@@ -48,7 +48,7 @@ void expect_found(const Case& c, const Table& table) {
 void expect_others_wrong(const Case& c, const Table& table) {
   const Eigen::Matrix3d unfold = fold(c.query).unfold;
   const Eigen::Matrix3d folded = unfold.inverse() * look_up(table, c.query).matrix;
-  for (const GgxLobe& other : testing::lobes_that_fold_to(c.node)) {
+  for (const Lobe& other : testing::lobes_that_fold_to(c.node)) {
     const Eigen::Matrix3d wrong = fold(other).unfold;
     if (wrong == unfold)
       continue;
@@ -64,8 +64,8 @@ TEST(LookUpOfFits, IsAsNearAsADirectFitInEveryQuadrantAndBothRoughnessOrders) {
   FitWorkspacePointer workspace = make_fit_workspace();
   HeldOutJudge judge(4096, 32);
   for (std::size_t flat = 0; flat < matrices.grid.size(); ++flat) {
-    const GgxLobe node = matrices.grid.lobe(flat);
-    for (const GgxLobe& query : testing::lobes_that_fold_to(node)) {
+    const Lobe node = matrices.grid.lobe(flat);
+    for (const Lobe& query : testing::lobes_that_fold_to(node)) {
       judge.set_lobe(query);
       FitRequest request;
       request.lobe = query;

@@ -93,7 +93,7 @@ TEST(Fold, FlipComesAfterSwap) {
 TEST(Fold, UnfoldTakesTheFoldedViewToTheView) {
   for (const double alpha_y : {0.1, 0.3, 0.7}) {
     for (double phi = -20; phi < 20; phi += 0.173) {
-      const GgxLobe lobe{0.3, alpha_y, 1.1, phi};
+      const Lobe lobe{0.3, alpha_y, 1.1, phi};
       const FoldedLobe folded = fold(lobe);
       EXPECT_GE(folded.lobe.alpha_x, folded.lobe.alpha_y);
       EXPECT_GE(folded.lobe.phi_radians, 0);
@@ -110,7 +110,7 @@ TEST(Interpolation, WeightsSumToOneAndReproduceMultilinearCoordinates) {
     const auto lattice = [i](double g) { return std::fmod(0.5 + i * g, 1.0); };
     const double alpha = grid.alpha.value(lattice(0.8566749));
     const double lambda = grid.lambda.value(lattice(0.7338919));
-    const GgxLobe lobe{alpha, lambda * alpha, grid.theta.value(lattice(0.6287067)),
+    const Lobe lobe{alpha, lambda * alpha, grid.theta.value(lattice(0.6287067)),
                        grid.phi.value(lattice(0.5385973))};
     const Interpolation corners = interpolation(grid, lobe);
     double sum = 0, u_alpha = 0, u_lambda = 0, u_theta = 0, u_phi = 0;
@@ -167,11 +167,11 @@ TEST(LookUp, ExactAtNodesInEveryQuadrantAndBothRoughnessOrders) {
         const NodeIndex node = grid.node(i);
         const double alpha = grid.alpha.nodes[node.alpha];
         const double smaller = grid.lambda.nodes[node.lambda] * alpha;
-        const GgxLobe folded{alpha, smaller, grid.theta.nodes[node.theta],
+        const Lobe folded{alpha, smaller, grid.theta.nodes[node.theta],
                              grid.phi.nodes[node.phi]};
-        for (const GgxLobe& query : testing::lobes_that_fold_to(folded)) {
+        for (const Lobe& query : testing::lobes_that_fold_to(folded)) {
           const LookUp found = look_up(table, query);
-          GgxLobe bounded = query;
+          Lobe bounded = query;
           bounded.alpha_x = std::max(query.alpha_x, grid.alpha_min);
           bounded.alpha_y = std::max(query.alpha_y, grid.alpha_min);
           // Entries of order 2 were rounded to float.
@@ -254,7 +254,7 @@ TEST(LookUp, StorageIsUndoneWithTheQuerysRoughness) {
   const Grid grid = Grid::paper(8);
   const Table table = testing::synthetic_table(grid, Storage::mirror_frame);
   for (const double alpha_y : {0.001, 0.05, 0.3, 0.8}) {
-    const GgxLobe query{0.3, alpha_y, grid.theta.nodes[4], grid.phi.nodes[3] + pi};
+    const Lobe query{0.3, alpha_y, grid.theta.nodes[4], grid.phi.nodes[3] + pi};
     // Along alpha and lambda S does not change at all. Entries of M of order 1 from floats; where
     // the roughnesses swap, phi falls on a node again, pi/2 - phi.
     EXPECT_LT(lobe_difference(look_up(table, query).matrix, testing::first_order_matrix(query)),
@@ -292,9 +292,9 @@ TEST(LookUp, NanOfASkippedCornerShowsAndOneOfWeightZeroDoesNot) {
 
 TEST(LookUp, NanInNanOut) {
   const Table table = testing::synthetic_table(testing::uneven_grid(), Storage::mirror_frame);
-  const GgxLobe lobes[] = {
+  const Lobe lobes[] = {
       {nan, 0.2, 1, 0}, {0.3, nan, 1, 0}, {0.3, 0.2, nan, 0}, {0.3, 0.2, 1, nan}};
-  for (const GgxLobe& lobe : lobes)
+  for (const Lobe& lobe : lobes)
     EXPECT_TRUE(look_up(table, lobe).matrix.array().isNaN().any());
   EXPECT_TRUE(
       std::isnan(look_up(table, {0.3, 0.2, 1, std::numeric_limits<double>::infinity()}).amplitude));
@@ -309,18 +309,18 @@ TEST(LookUp, InterpolatesBothRoughnessesWhereTheTableHasThem) {
   const Reduction reduction(grid);
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
     const NodeIndex node = grid.node(flat);
-    const GgxLobe lobe = {grid.alpha.nodes[node.alpha], grid.lambda.nodes[node.lambda],
+    const Lobe lobe = {grid.alpha.nodes[node.alpha], grid.lambda.nodes[node.lambda],
                           grid.theta.nodes[node.theta], grid.phi.nodes[node.phi]};
     const FoldedLobe folded = reduction.fold(lobe);
     EXPECT_TRUE(reduction.covers(lobe));
     EXPECT_EQ(look_up(table, lobe).matrix, folded.unfold * table.matrix_at(flat)) << flat;
   }
-  const GgxLobe a = {0.25, 0.75, 0, 0}, b = {0.5, 1, 0, 0}, between = {0.375, 0.875, 0, 0};
+  const Lobe a = {0.25, 0.75, 0, 0}, b = {0.5, 1, 0, 0}, between = {0.375, 0.875, 0, 0};
   // The synthetic matrix is linear in both roughnesses; rounding to 32 bits.
   const Eigen::Matrix3d mean = 0.5 * (look_up(table, a).matrix + look_up(table, b).matrix);
   EXPECT_LT((look_up(table, between).matrix - mean).cwiseAbs().maxCoeff(), 1e-7);
   // Mirrored views are looked up as those of the first quadrant.
-  GgxLobe mirrored = {0.5, 0.75, 0.7, 0.4};
+  Lobe mirrored = {0.5, 0.75, 0.7, 0.4};
   const Eigen::Matrix3d first = look_up(table, mirrored).matrix;
   mirrored.phi_radians = -0.4;
   const Eigen::Matrix3d flipped = Eigen::Vector3d(1, -1, 1).asDiagonal() * first;

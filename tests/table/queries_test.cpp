@@ -12,7 +12,7 @@ namespace {
 
 TEST(Queries, StandWhereTheUniformNumbersSay) {
   const QueryRange range{0.2, 0.6, 0.5, 1.0, 0.0, 0.5, 0.1, 0.3};
-  const GgxLobe lobe = query_lobe(range, {0.5, 0.5, 0.5, 0.5}, 1e-4);
+  const Lobe lobe = query_lobe(range, {0.5, 0.5, 0.5, 0.5}, 1e-4);
   EXPECT_DOUBLE_EQ(lobe.alpha_x, 0.16);
   EXPECT_DOUBLE_EQ(lobe.alpha_y, 0.12);
   EXPECT_DOUBLE_EQ(lobe.theta_radians, std::acos(0.25));
@@ -20,15 +20,15 @@ TEST(Queries, StandWhereTheUniformNumbersSay) {
 }
 
 TEST(Queries, AreNeverSmootherThanAlphaMin) {
-  const GgxLobe lobe = query_lobe({}, {0, 0, 0.5, 0.5}, 0.05);
+  const Lobe lobe = query_lobe({}, {0, 0, 0.5, 0.5}, 0.05);
   EXPECT_EQ(lobe.alpha_x, 0.05);
   EXPECT_EQ(lobe.alpha_y, 0.05);
 }
 
 // Means of the four uniform quantities and the mean of their squares.
-std::array<double, 8> moments(const std::vector<GgxLobe>& queries) {
+std::array<double, 8> moments(const std::vector<Lobe>& queries) {
   std::array<double, 8> sums{};
-  for (const GgxLobe& lobe : queries) {
+  for (const Lobe& lobe : queries) {
     const double values[] = {(std::sqrt(lobe.alpha_x) - 0.1) / 0.9, lobe.alpha_y / lobe.alpha_x,
                              std::cos(lobe.theta_radians),
                              lobe.phi_radians / (std::numbers::pi / 2)};
@@ -43,7 +43,7 @@ std::array<double, 8> moments(const std::vector<GgxLobe>& queries) {
 TEST(Queries, AreUniform) {
   // 4096 independent ones: standard errors 0.0045 and 0.0047; 5 of them for eight checks.
   // Lattice: the discrepancy of 4096 points of the sequence stays well below 0.004.
-  const auto check = [](const std::vector<GgxLobe>& queries, double tolerance) {
+  const auto check = [](const std::vector<Lobe>& queries, double tolerance) {
     const auto sums = moments(queries);
     for (int i = 0; i < 4; ++i) {
       EXPECT_NEAR(sums[i], 0.5, tolerance);

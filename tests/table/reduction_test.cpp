@@ -119,7 +119,7 @@ TEST(QueryRanges, EndWhereTheAxesEnd) {
   grid.phi = Axis::make(0.1, 0.4, 4, Warp::linear);
   const QueryRange range = query_range_of(grid, {});
   EXPECT_EQ(range, (QueryRange{0.2, 0.8, 0.5, 0.9, std::cos(1.2), std::cos(0.2), 0.1, 0.4}));
-  for (const GgxLobe& lobe : random_queries(range, 100, 1, grid.alpha_min))
+  for (const Lobe& lobe : random_queries(range, 100, 1, grid.alpha_min))
     EXPECT_TRUE(Reduction(grid).covers(lobe));
   // What is asked for within the axes stays as it is.
   const QueryRange within{0.3, 0.3, 0.6, 0.7, 0.5, 0.5, 0.2, 0.2};

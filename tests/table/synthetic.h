@@ -12,7 +12,7 @@ namespace ltc::testing {
 // The matrix of a lobe to first order in the slopes of its microfacets: columns
 // alpha_x (2 vz, 0, 2 vx), alpha_y (0, 2 vz, 2 vy) and the mirror direction. It obeys the
 // symmetries of equations (13) to (16), its third column has unit length.
-inline Eigen::Matrix3d first_order_matrix(const GgxLobe& lobe) {
+inline Eigen::Matrix3d first_order_matrix(const Lobe& lobe) {
   const Eigen::Vector3d v = lobe.omega_v();
   Eigen::Matrix3d matrix;
   matrix.col(0) = 2 * lobe.alpha_x * Eigen::Vector3d(v.z(), 0, v.x());
@@ -22,11 +22,11 @@ inline Eigen::Matrix3d first_order_matrix(const GgxLobe& lobe) {
 }
 
 // Any functions of the lobe with its symmetries, different in every argument.
-inline double synthetic_amplitude(const GgxLobe& lobe) {
+inline double synthetic_amplitude(const Lobe& lobe) {
   const Eigen::Vector3d v = lobe.omega_v();
   return 1 - 0.25 * lobe.alpha_x * lobe.alpha_y - 0.5 * (1 - v.z()) * (lobe.alpha_x + lobe.alpha_y);
 }
-inline double synthetic_fresnel(const GgxLobe& lobe) {
+inline double synthetic_fresnel(const Lobe& lobe) {
   const Eigen::Vector3d v = lobe.omega_v();
   return 0.1 + 0.2 * (lobe.alpha_x * v.x() * v.x() + lobe.alpha_y * v.y() * v.y());
 }
@@ -39,7 +39,7 @@ inline Table synthetic_table(const Grid& grid, Storage storage) {
   table.generator = "ltcfit test";
   table.created = "2026-01-02T03:04:05Z";
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const GgxLobe lobe = grid.lobe(i);
+    const Lobe lobe = grid.lobe(i);
     table.set_stored(i, stored_from_matrix(storage, first_order_matrix(lobe), lobe));
     table.amplitude[i] = static_cast<float>(synthetic_amplitude(lobe));
     table.fresnel[i] = static_cast<float>(synthetic_fresnel(lobe));

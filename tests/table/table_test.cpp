@@ -63,7 +63,7 @@ TEST(Grid, AxesHaveTheNumbersAndNamesOfTheirLayout) {
 TEST(Grid, PaperNodesAreThePublishedOnes) {
   const Grid grid = Grid::paper();
   ASSERT_EQ(grid.size(), 4096u);
-  const GgxLobe lobe = grid.lobe({3, 2, 5, 6});
+  const Lobe lobe = grid.lobe({3, 2, 5, 6});
   // Four roundings of doubles near 1.
   EXPECT_NEAR(lobe.alpha_x, 3.0 / 7, 1e-15);
   EXPECT_NEAR(lobe.alpha_y, 6.0 / 49, 1e-15);
@@ -78,7 +78,7 @@ TEST(Grid, PaperNodesAreThePublishedOnes) {
 TEST(Storage, MirrorRotationTakesZToTheMirrorDirectionByTheLeastTurn) {
   for (const double theta : {0.0, 0.3, 1.2, 1.5706}) {
     for (const double phi : {0.0, 0.8, 2.5, 4.0, 6.1}) {
-      const Eigen::Vector3d v = GgxLobe{1, 1, theta, phi}.omega_v();
+      const Eigen::Vector3d v = Lobe{1, 1, theta, phi}.omega_v();
       const Eigen::Matrix3d q = mirror_rotation(v);
       // All entries are sums of a few products below 1.
       constexpr double rounding = 1e-14;
@@ -94,7 +94,7 @@ TEST(Storage, MirrorRotationTakesZToTheMirrorDirectionByTheLeastTurn) {
 TEST(Storage, StoredGoesToMatrixAndBack) {
   Eigen::Matrix3d matrix;
   matrix << 0.3, -0.1, 0.2, 0.05, 0.4, -0.6, 0.7, 0.1, 0.77;
-  const GgxLobe lobe{0.3, 0.02, 1.1, 0.4};
+  const Lobe lobe{0.3, 0.02, 1.1, 0.4};
   for (const Storage storage :
        {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame}) {
     const Eigen::Matrix3d stored = stored_from_matrix(storage, matrix, lobe);
@@ -105,7 +105,7 @@ TEST(Storage, StoredGoesToMatrixAndBack) {
 }
 
 TEST(Storage, FormulasOfTheTableFormat) {
-  const GgxLobe lobe{0.3, 0.02, 1.1, 0.4};
+  const Lobe lobe{0.3, 0.02, 1.1, 0.4};
   const Eigen::Matrix3d stored = Eigen::Matrix3d::Random();
   const Eigen::Matrix3d scale = Eigen::Vector3d(0.3, 0.02, 1).asDiagonal();
   EXPECT_EQ(matrix_from_stored(Storage::matrix, stored, lobe), stored);
@@ -120,7 +120,7 @@ TEST(Storage, FormulasOfTheTableFormat) {
 TEST(Storage, SymmetryZerosOfEquation16HoldForStoredToo) {
   for (const Storage storage :
        {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame}) {
-    const GgxLobe at_phi_0{0.5, 0.1, 0.9, 0};
+    const Lobe at_phi_0{0.5, 0.1, 0.9, 0};
     const Eigen::Matrix3d stored =
         stored_from_matrix(storage, testing::first_order_matrix(at_phi_0), at_phi_0);
     // Exact: phi = 0 makes vy exactly 0.

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// One lobe of a material: what light directions a viewer sees. Directions are unit vectors of the
+// tangent frame: z is the surface normal, x the direction of alpha_x.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace ltc {
+
+struct Lobe {
+  double alpha_x = 1.0;        // > 0; meaningful down to 1e-12
+  double alpha_y = 1.0;        // > 0; meaningful down to 1e-12
+  double theta_radians = 0.0;  // elevation of the view direction, [0, pi/2)
+  double phi_radians = 0.0;    // azimuth of the view direction
+
+  // (sin theta cos phi, sin theta sin phi, cos theta), equation (3) of Aakash et al. 2022. A sine
+  // or cosine of phi that is zero but for the rounding of phi is zero, so that a view along an axis
+  // is exactly symmetric.
+  Eigen::Vector3d omega_v() const;
+};
+
+}  // namespace ltc
