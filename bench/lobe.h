@@ -16,7 +16,7 @@
 
 namespace ltc::bench {
 
-inline constexpr Lobe lobe{0.43, 0.18, 0.9, 0.6};
+inline const Lobe lobe{0.43, 0.18, 0.9, 0.6};
 
 // The sets of a phase of the fit, as GaussNewtonSolver makes them.
 struct Sets {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// How much light a GGX lobe reflects in all: the amplitude and Fresnel channels of a table.
+// How much light a lobe reflects in all: the amplitude and Fresnel channels of a table.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "brdf/ggx.h"
+#include "brdf/lobe.h"
 
 namespace ltc {
 
@@ -17,8 +17,8 @@ struct Albedo {
   double fresnel = 0;    // integral of (1 - v.h)^5 rho cos(theta_l)
 };
 
-// Nodes and weights of a quadrature over the unit square that visible normals are made from
-// (GgxSampler::visible_normal). The golden-ratio lattice: periodic in the azimuth, and made
+// Nodes and weights of a quadrature over the unit square that a lobe's samples are made from
+// (LobeSampler::sample). The golden-ratio lattice: periodic in the azimuth, and made
 // periodic in the height by u = t^2 (3 - 2 t) with weight 6 t (1 - t), which vanishes at both ends.
 class AlbedoRule {
  public:
@@ -41,7 +41,7 @@ class AlbedoRule {
   std::vector<float> weight;                    // sums to 1
 };
 
-// Both integrals of a lobe by the rule, in single precision with the sums in double.
+// Both integrals of a lobe by the rule; for GGX in single precision with the sums in double.
 Albedo integrate_albedo(const Lobe& lobe, const AlbedoRule& rule);
 
 }  // namespace ltc

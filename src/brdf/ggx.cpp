@@ -48,50 +48,38 @@ double ggx_g2(double alpha_x, double alpha_y, const Eigen::Vector3d& omega_v,
 }
 
 GgxSampler::GgxSampler(const Lobe& lobe)
-    : alpha_x_(lobe.alpha_x),
+    : LobeSampler(lobe.omega_v()),
+      alpha_x_(lobe.alpha_x),
       alpha_y_(lobe.alpha_y),
-      omega_v_(lobe.omega_v()),
-      mirror_(-omega_v_.x(), -omega_v_.y(), omega_v_.z()),
-      stretched_v_(Eigen::Vector3d(alpha_x_ * omega_v_.x(), alpha_y_ * omega_v_.y(), omega_v_.z())
-                       .normalized()),
+      stretched_v_(
+          Eigen::Vector3d(alpha_x_ * omega_v().x(), alpha_y_ * omega_v().y(), omega_v().z())
+              .normalized()),
       one_minus_stretched_z_((square(stretched_v_.x()) + square(stretched_v_.y())) /
                              (1 + stretched_v_.z())),
-      lambda_v_(ggx_lambda(alpha_x_, alpha_y_, omega_v_)) {
+      lambda_v_(ggx_lambda(alpha_x_, alpha_y_, omega_v())) {
   // vz (1 + Lambda) = (vz + sqrt(vz^2 + s^2))/2.
-  const double s_squared = stretched_sine_squared(alpha_x_, alpha_y_, omega_v_);
-  vz_one_plus_lambda_v_ = (omega_v_.z() + std::sqrt(square(omega_v_.z()) + s_squared)) / 2;
+  const double s_squared = stretched_sine_squared(alpha_x_, alpha_y_, omega_v());
+  vz_one_plus_lambda_v_ = (omega_v().z() + std::sqrt(square(omega_v().z()) + s_squared)) / 2;
 }
 
-double GgxSampler::brdf_cosine_of(const Eigen::Vector3d& half,
-                                  const Eigen::Vector3d& omega_l) const {
-  if (!(omega_l.z() > 0))
-    return 0;
-  // G2/cos theta_v = 1/(vz (1 + Lambda(v) + Lambda(l))).
-  const double lambda_l = ggx_lambda(alpha_x_, alpha_y_, omega_l);
-  return ggx_ndf(alpha_x_, alpha_y_, half) /
-         (4 * (vz_one_plus_lambda_v_ + omega_v_.z() * lambda_l));
+LobeDensities GgxSampler::densities_of(const Eigen::Vector3d& half,
+                                       const Eigen::Vector3d& omega_l) const {
+  const double ndf = ggx_ndf(alpha_x_, alpha_y_, half);
+  LobeDensities densities{0, ndf / (4 * vz_one_plus_lambda_v_)};
+  if (omega_l.z() > 0) {
+    // G2/cos theta_v = 1/(vz (1 + Lambda(v) + Lambda(l))).
+    const double lambda_l = ggx_lambda(alpha_x_, alpha_y_, omega_l);
+    densities.brdf_cosine = ndf / (4 * (vz_one_plus_lambda_v_ + omega_v().z() * lambda_l));
+  }
+  return densities;
 }
 
-double GgxSampler::brdf_cosine(const Eigen::Vector3d& omega_l) const {
-  return brdf_cosine_of(omega_v_ + omega_l, omega_l);
+LobeDensities GgxSampler::densities(const Eigen::Vector3d& omega_l) const {
+  return densities_of(omega_v() + omega_l, omega_l);
 }
 
-double GgxSampler::brdf_cosine_at_offset(const Eigen::Vector3d& offset) const {
-  return brdf_cosine_of({offset.x(), offset.y(), 2 * omega_v_.z() + offset.z()}, mirror_ + offset);
-}
-
-double GgxSampler::vndf_density(const Eigen::Vector3d& omega_l) const {
-  return ggx_ndf(alpha_x_, alpha_y_, omega_v_ + omega_l) / (4 * vz_one_plus_lambda_v_);
-}
-
-double GgxSampler::vndf_density_at_offset(const Eigen::Vector3d& offset) const {
-  return ggx_ndf(alpha_x_, alpha_y_, {offset.x(), offset.y(), 2 * omega_v_.z() + offset.z()}) /
-         (4 * vz_one_plus_lambda_v_);
-}
-
-Eigen::Vector3d GgxSampler::visible_normal(double u_azimuth, double u_height) const {
-  const double azimuth = 2 * std::numbers::pi * u_azimuth;
-  return visible_normal(std::cos(azimuth), std::sin(azimuth), u_height);
+LobeDensities GgxSampler::densities_at_offset(const Eigen::Vector3d& offset) const {
+  return densities_of({offset.x(), offset.y(), 2 * omega_v().z() + offset.z()}, mirror() + offset);
 }
 
 // The cap is the part of the unit sphere with z > -v_z (v the stretched view direction). For a
@@ -112,20 +100,24 @@ Eigen::Vector3d GgxSampler::visible_normal(double cos_azimuth, double sin_azimut
 //   l - m = 2 ((v.h) hx, (v.h) hy, (v.h) hz - vz),
 //   (v.h) hz - vz = (v.h - vz) hz + vz (hz - 1),  v.h - vz = vx hx + vy hy + vz (hz - 1),
 // with hz - 1 = -(hx^2 + hy^2)/(1 + hz): every term is as small as the lobe is narrow.
-GgxSample GgxSampler::reflect(const Eigen::Vector3d& omega_h) const {
+LobeSample GgxSampler::reflect(const Eigen::Vector3d& omega_h) const {
   const double hz_minus_one = -(square(omega_h.x()) + square(omega_h.y())) / (1 + omega_h.z());
-  const double vz = omega_v_.z();
+  const double vz = omega_v().z();
   const double v_dot_h_minus_vz =
-      omega_v_.x() * omega_h.x() + omega_v_.y() * omega_h.y() + vz * hz_minus_one;
-  GgxSample sample;
+      omega_v().x() * omega_h.x() + omega_v().y() * omega_h.y() + vz * hz_minus_one;
+  LobeSample sample;
   sample.v_dot_h = vz + v_dot_h_minus_vz;
   sample.offset = 2 * Eigen::Vector3d(sample.v_dot_h * omega_h.x(), sample.v_dot_h * omega_h.y(),
                                       v_dot_h_minus_vz * omega_h.z() + vz * hz_minus_one);
-  sample.omega_l = mirror_ + sample.offset;
+  sample.omega_l = mirror() + sample.offset;
   if (sample.omega_l.z() > 0)
     sample.weight =
         (1 + lambda_v_) / (1 + lambda_v_ + ggx_lambda(alpha_x_, alpha_y_, sample.omega_l));
   return sample;
+}
+
+void GgxSampler::sample_all(const SampleLattice& lattice, WeightedSamples& samples) const {
+  fill(lattice, samples, [&](double c, double s, double u) { return GgxSampler::sample(c, s, u); });
 }
 
 }  // namespace ltc

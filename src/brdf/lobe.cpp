@@ -20,4 +20,9 @@ Eigen::Vector3d Lobe::omega_v() const {
           sin_theta * without_rounding(std::sin(phi_radians)), std::cos(theta_radians)};
 }
 
+Eigen::Vector3d Lobe::mirror() const {
+  const Eigen::Vector3d v = omega_v();
+  return {-v.x(), -v.y(), v.z()};
+}
+
 }  // namespace ltc

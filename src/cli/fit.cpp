@@ -180,6 +180,7 @@ FitReport run_fit(const Arguments& arguments, const Config& config, const RunCon
   std::size_t seed_index = 0;
   if (arguments.entry.empty()) {
     lobe = parse_lobe(arguments);
+    lobe.model = config.grid.model;
   } else {
     report.entry = parse_entry(arguments.entry, config.grid);
     lobe = config.grid.lobe(*report.entry);
@@ -236,7 +237,8 @@ void show_as_in(const Arguments& arguments, const RunContext& run) {
     }
   };
   if (arguments.entry.empty()) {
-    const Lobe lobe = parse_lobe(arguments);
+    Lobe lobe = parse_lobe(arguments);
+    lobe.model = report.table.grid.model;
     report.lobe = named([&] { return stored_query(report.table, lobe, run); });
   } else {
     const std::size_t entry = parse_entry(arguments.entry, report.table.grid);

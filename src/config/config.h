@@ -27,7 +27,6 @@ struct OutputSettings {
 };
 
 struct Config {
-  std::string brdf = "ggx";
   Storage storage = Storage::matrix;
   Grid grid = Grid::paper();
   FitSettings fit;

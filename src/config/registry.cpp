@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "config/registry.h"
 
+#include "brdf/lobe_model.h"
+
 namespace ltc::config {
 namespace {
 
@@ -29,8 +31,11 @@ std::vector<Key> axis_keys(std::string section, Member axis, std::string_view un
 
 // clang-format off
 std::vector<Key> table_keys() {
+  Choices<const LobeModel*> brdfs;
+  for (const LobeModel* model : lobe_models())
+    brdfs.emplace_back(model->name(), model);
   std::vector<Key> all = {
-      key("table.brdf", [](Draft& d) { return &d.config.brdf; }, Choices<std::string>{{"ggx", "ggx"}}, "the BRDF that is fitted"),
+      key("table.brdf", [](Draft& d) { return &d.config.grid.model; }, brdfs, "the BRDF that is fitted"),
       key("table.storage", [](Draft& d) { return &d.config.storage; }, "what the table holds and a reader interpolates"),
       key("table.alpha_min", [](Draft& d) { return &d.config.grid.alpha_min; }, Range{1e-6, 1}, "least roughness: smaller alpha_x and alpha_y are raised to it"),
   };

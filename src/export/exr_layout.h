@@ -12,7 +12,7 @@
 namespace ltc {
 
 // Every entry counts as fitted, its loss is NaN, its steps 0, precision `half` where a channel is;
-// brdf, seed, config, generator and created are empty.
+// seed, config, generator and created are empty, the BRDF is taken to be GGX.
 Table read_exr(const TableFiles& files, std::optional<Layout> layout);
 
 namespace exr_layout {

@@ -222,7 +222,6 @@ Table read_exr(const TableFiles& paths, std::optional<Layout>) {
   Table table;
   for (std::size_t index = 0; index < paths.size(); ++index)
     read_file_into(table, index, paths[index]);
-  table.brdf.clear();
   table.status.assign(table.grid.size(), Status::fitted);
   return table;
 }

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "brdf/lobe_model.h"
 #include "core/error.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
@@ -35,7 +36,7 @@ std::string axis_dataset(std::string_view axis) {
 void write_attributes(Hdf5Output& file, const Table& table) {
   file.text(root, "format", table_format);
   file.number(root, "format_version", std::int32_t{table_format_version});
-  file.text(root, "brdf", table.brdf);
+  file.text(root, "brdf", std::string(table.grid.model->name()));
   file.text(root, "storage", std::string(name_of(table.storage)));
   file.number(root, "alpha_min", table.grid.alpha_min);
   file.number(root, "seed", table.seed);
@@ -91,12 +92,12 @@ void require_format(const Hdf5Input& file, const fs::path& path) {
 }
 
 // Names the file when a name in it is not known.
-template <Named Enum>
-Enum named(const Hdf5Input& file, const fs::path& path, const std::string& object,
-           const std::string& attribute) {
+template <typename FromName>
+auto named(const Hdf5Input& file, const fs::path& path, const std::string& object,
+           const std::string& attribute, FromName from_name) {
   const std::string name = file.text(object, attribute);
   try {
-    return value_named<Enum>(name);
+    return from_name(name);
   } catch (const InputError& error) {
     throw InputError(
         fmt::format("{}: attribute {} of {}: {}", path.string(), attribute, object, error.what()));
@@ -110,7 +111,7 @@ Axis read_axis(const Hdf5Input& file, const fs::path& path, const std::string& n
                                  name, max_nodes_per_axis));
   Axis axis;
   axis.nodes = file.values<double>(name, shape);
-  axis.warp = named<Warp>(file, path, name, "warp");
+  axis.warp = named(file, path, name, "warp", value_named<Warp>);
   return axis;
 }
 
@@ -119,6 +120,8 @@ Grid read_grid(const Hdf5Input& file, const fs::path& path) {
   for (std::size_t i = 0; i < Grid::axis_count; ++i)
     grid.axis(i) = read_axis(file, path, axis_dataset(grid.axis_names()[i]));
   grid.alpha_min = file.real(root, "alpha_min");
+  grid.model =
+      named(file, path, root, "brdf", [](std::string_view name) { return &lobe_model(name); });
   require_consistent(grid, path);
   return grid;
 }
@@ -135,8 +138,7 @@ std::optional<bool> read_refined(const Hdf5Input& file, const fs::path& path) {
 }
 
 void read_attributes(const Hdf5Input& file, const fs::path& path, Table& table) {
-  table.storage = named<Storage>(file, path, root, "storage");
-  table.brdf = file.text(root, "brdf");
+  table.storage = named(file, path, root, "storage", value_named<Storage>);
   table.seed = file.natural(root, "seed");
   table.generator = file.text(root, "generator");
   table.config = file.text(root, "config");

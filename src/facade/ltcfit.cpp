@@ -38,7 +38,7 @@ double require_in(const char* name, double value, bool good, const char* allowed
   return value;
 }
 
-ltc::Lobe checked(const Lobe& lobe) {
+ltc::Lobe checked(const Lobe& lobe, const ltc::LobeModel* model) {
   const auto roughness = [](const char* name, double alpha) {
     return require_in(name, alpha, alpha >= 1e-12 && alpha <= 1, "a number in [1e-12, 1]");
   };
@@ -47,7 +47,8 @@ ltc::Lobe checked(const Lobe& lobe) {
                      lobe.theta_radians >= 0 && lobe.theta_radians < std::numbers::pi / 2,
                      "a number in [0, pi/2)"),
           require_in("phi_radians", lobe.phi_radians, std::isfinite(lobe.phi_radians),
-                     "a finite number")};
+                     "a finite number"),
+          model};
 }
 
 }  // namespace
@@ -63,7 +64,8 @@ std::string_view version() {
 
 FittedLobe fit(const Lobe& lobe, const Config& config) {
   const ltc::Config settings = load(config);
-  const ltc::LobeFit fit = ltc::fit_lobe(settings, checked(lobe), settings.fit.seed, std::nullopt);
+  const ltc::LobeFit fit =
+      ltc::fit_lobe(settings, checked(lobe, settings.grid.model), settings.fit.seed, std::nullopt);
   if (!has_values(fit.fitted.status))
     throw CheckFailure("the lobe has no finite fit; other settings of the solver may do");
   return {{fit.matrix, fit.albedo.amplitude, fit.albedo.fresnel}, fit.held_out_loss, fit.spread};

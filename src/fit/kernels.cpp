@@ -295,72 +295,6 @@ void reduce_direction(const ProjectionMap& map, const float* sums, const std::in
     result.loss += static_cast<double>(loss);
 }
 
-void sample_target(const TargetParameters& parameters, const float* cos_azimuth,
-                   const float* sin_azimuth, const float* height, std::size_t count, float* gx,
-                   float* gy, float* gz, float* weights) {
-  const Floats d;
-  const V one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), half = hn::Set(d, 0.5f);
-  const V zero = hn::Zero(d);
-  const float stretched_x = parameters.alpha_x * parameters.view_x;
-  const float stretched_y = parameters.alpha_y * parameters.view_y;
-  const float stretched_length =
-      hn::GetLane(hn::Sqrt(hn::Set(d, stretched_x * stretched_x + stretched_y * stretched_y +
-                                          parameters.view_z * parameters.view_z)));
-  const V ax = hn::Set(d, parameters.alpha_x), ay = hn::Set(d, parameters.alpha_y);
-  const V vx = hn::Set(d, parameters.view_x), vy = hn::Set(d, parameters.view_y);
-  const V vz = hn::Set(d, parameters.view_z);
-  const V sx = hn::Set(d, stretched_x / stretched_length);
-  const V sy = hn::Set(d, stretched_y / stretched_length);
-  const float cap_z = parameters.view_z / stretched_length;
-  const V rim_depth = hn::Set(d, 1.0f + cap_z);
-  const V one_less_sz = hn::Set(d, (stretched_x * stretched_x + stretched_y * stretched_y) /
-                                       (stretched_length * (stretched_length + parameters.view_z)));
-  // 1 + Lambda(v) = (1 + |v stretched| / vz) / 2, equation (5).
-  const V shadow_view = hn::Set(d, 0.5f * (1.0f + stretched_length / parameters.view_z));
-  const float* q = parameters.rotation;
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    // A point c of the spherical cap c_z in (-sz, 1]; the microfacet normal is c + s, unstretched.
-    // At the rim, u near 1, both c_z + s_z and 1 + c_z are small: they are sums of terms of one
-    // sign, so that the tail keeps its digits.
-    const V u = hn::Load(d, height + i);
-    const V above_rim = hn::Mul(hn::Sub(one, u), rim_depth);  // c_z + s_z
-    const V drop = hn::Mul(u, rim_depth);                     // 1 - c_z
-    const V radius = hn::Sqrt(hn::Mul(drop, hn::Add(above_rim, one_less_sz)));
-    const V nx = hn::Mul(ax, hn::MulAdd(radius, hn::Load(d, cos_azimuth + i), sx));
-    const V ny = hn::Mul(ay, hn::MulAdd(radius, hn::Load(d, sin_azimuth + i), sy));
-    const V nz = above_rim;
-    const V lateral = hn::MulAdd(nx, nx, hn::Mul(ny, ny));
-    const V length = hn::Sqrt(hn::MulAdd(nz, nz, lateral));
-    const V scale = hn::Div(one, length);
-    const V hx = hn::Mul(nx, scale), hy = hn::Mul(ny, scale);
-    const V hz_less_one = hn::Neg(hn::Div(hn::Mul(lateral, scale), hn::Add(length, nz)));
-    // v.h - vz and the offset of the reflected direction 2 (v.h) h - v from the mirror's, both as
-    // sums of small terms.
-    const V dot_less_vz = hn::MulAdd(vx, hx, hn::MulAdd(vy, hy, hn::Mul(vz, hz_less_one)));
-    const V dot = hn::Add(dot_less_vz, vz);
-    const V ox = hn::Mul(two, hn::Mul(dot, hx));
-    const V oy = hn::Mul(two, hn::Mul(dot, hy));
-    const V oz = hn::Mul(two, hn::MulAdd(dot, hz_less_one, dot_less_vz));
-    const V lx = hn::Sub(ox, vx), ly = hn::Sub(oy, vy), lz = hn::Add(oz, vz);
-    // G2/G1 = (1 + Lambda(v)) / (1 + Lambda(v) + Lambda(l)), Lambda(l) = (|l stretched|/lz - 1)/2.
-    const V slx = hn::Mul(ax, lx), sly = hn::Mul(ay, ly);
-    const V stretched_light = hn::Sqrt(hn::MulAdd(slx, slx, hn::MulAdd(sly, sly, hn::Mul(lz, lz))));
-    const V numerator = hn::Mul(shadow_view, lz);
-    const V denominator = hn::MulAdd(half, hn::Sub(stretched_light, lz), hn::Mul(shadow_view, lz));
-    const V weight = hn::Div(numerator, denominator);
-    hn::Store(hn::IfThenElseZero(hn::Gt(lz, zero), weight), d, weights + i);
-    hn::Store(hn::MulAdd(hn::Set(d, q[0]), ox,
-                         hn::MulAdd(hn::Set(d, q[3]), oy, hn::Mul(hn::Set(d, q[6]), oz))),
-              d, gx + i);
-    hn::Store(hn::MulAdd(hn::Set(d, q[1]), ox,
-                         hn::MulAdd(hn::Set(d, q[4]), oy, hn::Mul(hn::Set(d, q[7]), oz))),
-              d, gy + i);
-    // m . (l - m) = -|l - m|^2 / 2 for unit vectors.
-    const V squared = hn::MulAdd(ox, ox, hn::MulAdd(oy, oy, hn::Mul(oz, oz)));
-    hn::Store(hn::Neg(hn::Mul(half, squared)), d, gz + i);
-  }
-}
-
 }  // namespace ltc::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -372,7 +306,6 @@ HWY_EXPORT(project_and_bin);
 HWY_EXPORT(accumulate_rows);
 HWY_EXPORT(accumulate_weights);
 HWY_EXPORT(reduce_direction);
-HWY_EXPORT(sample_target);
 
 void transform_samples(const float* frame_matrix, float alpha_x, float alpha_y,
                        const float* cosine_x, const float* cosine_y, const float* cosine_z,
@@ -403,13 +336,6 @@ void reduce_direction(const ProjectionMap& map, const float* sums, const std::in
                       float smoothing, float* scratch, DirectionSums& result) {
   HWY_DYNAMIC_DISPATCH(reduce_direction)
   (map, sums, populations, bin_count, count, target, smoothing, scratch, result);
-}
-
-void sample_target(const TargetParameters& parameters, const float* cos_azimuth,
-                   const float* sin_azimuth, const float* height, std::size_t count, float* gx,
-                   float* gy, float* gz, float* weights) {
-  HWY_DYNAMIC_DISPATCH(sample_target)
-  (parameters, cos_azimuth, sin_azimuth, height, count, gx, gy, gz, weights);
 }
 
 }  // namespace ltc::kernels

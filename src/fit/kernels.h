@@ -106,15 +106,4 @@ void reduce_direction(const ProjectionMap& map, const float* sums, const std::in
                       std::size_t bin_count, std::size_t count, const TargetCells& target,
                       float smoothing, float* scratch, DirectionSums& result);
 
-// Offsets from the mirror direction (in the mirror's frame) and weights G2/G1 of the lattice's VNDF
-// samples, equation (6) importance sampled (Dupuy and Benyoub 2023); zero weight below the horizon.
-struct TargetParameters {
-  float alpha_x, alpha_y;
-  float view_x, view_y, view_z;  // omega_v
-  float rotation[9];             // Q, row-major
-};
-void sample_target(const TargetParameters& parameters, const float* cos_azimuth,
-                   const float* sin_azimuth, const float* height, std::size_t count, float* gx,
-                   float* gy, float* gz, float* weights);
-
 }  // namespace ltc::kernels

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "brdf/lobe_model.h"
 #include "core/error.h"
 #include "ltc/ltsd.h"
 
@@ -48,20 +49,18 @@ double L3Error::operator()(const Eigen::Matrix3d& matrix) const try {
   return std::numeric_limits<double>::infinity();  // no distribution
 }
 
-L3Error ggx_l3_error(const Lobe& lobe, double amplitude, const TargetLattice& lattice,
-                     const CosineSet& cosines) {
-  const GgxSampler sampler(lobe);
+L3Error lobe_l3_error(const Lobe& lobe, double amplitude, const TargetLattice& lattice,
+                      const CosineSet& cosines) {
+  const std::shared_ptr<const LobeSampler> sampler = lobe.model->sampler(lobe);
   std::vector<Eigen::Vector3d> samples;
   samples.reserve(lattice.size());
   for (std::size_t i = 0; i < lattice.size(); ++i)
-    samples.push_back(sampler
-                          .reflect(sampler.visible_normal(
-                              lattice.cos_azimuth[i], lattice.sin_azimuth[i], lattice.height[i]))
-                          .omega_l);
+    samples.push_back(
+        sampler->sample(lattice.cos_azimuth[i], lattice.sin_azimuth[i], lattice.height[i]).omega_l);
   return L3Error(
       [sampler, amplitude](const Eigen::Vector3d& omega) {
-        return L3Error::Densities{sampler.brdf_cosine(omega) / amplitude,
-                                  sampler.vndf_density(omega)};
+        const LobeDensities densities = sampler->densities(omega);
+        return L3Error::Densities{densities.brdf_cosine / amplitude, densities.sampling};
       },
       std::move(samples), cosines);
 }

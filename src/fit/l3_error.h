@@ -13,7 +13,8 @@
 #include <functional>
 #include <vector>
 
-#include "brdf/ggx.h"
+#include "brdf/lattice.h"
+#include "brdf/lobe.h"
 #include "fit/sample_sets.h"
 
 namespace ltc {
@@ -43,9 +44,8 @@ class L3Error {
   const CosineSet& cosines_;
 };
 
-// The distance to a GGX lobe of the given amplitude (the integral of its cosine-weighted BRDF),
-// with samples by visible normals.
-L3Error ggx_l3_error(const Lobe& lobe, double amplitude, const TargetLattice& lattice,
-                     const CosineSet& cosines);
+// The distance to a lobe of the given amplitude (the integral of its cosine-weighted BRDF).
+L3Error lobe_l3_error(const Lobe& lobe, double amplitude, const TargetLattice& lattice,
+                      const CosineSet& cosines);
 
 }  // namespace ltc

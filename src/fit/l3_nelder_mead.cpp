@@ -129,7 +129,7 @@ FitResult L3NelderMeadSolver::fit(const FitRequest& request, FitWorkspace& works
   const Eigen::Matrix3d start =
       request.starts.empty() ? start_of_kind(settings_.start, frame, workspace.target, request.seed)
                              : admissible(frame.from_matrix(request.starts.front()), free);
-  const L3Error error = ggx_l3_error(
+  const L3Error error = lobe_l3_error(
       request.lobe, integrate_albedo(request.lobe, albedo_rule_).amplitude, lattice_, cosines_);
   const SimplexSearch search =
       search_by_simplex(frame, start, free, error, settings_, request.progress, trace);

@@ -11,9 +11,9 @@ namespace ltc {
 // a fit can tell from the best.
 bool first_order_is_exact(const LobeFrame& frame);
 
-// True for lobes with a larger roughness below 0.12. What an LTC misses of them is less than the
-// noise of equally weighted samples, most of which is in the tails; near the horizon they have
-// several minima besides, which only graded samples tell apart.
+// True for lobes of heavy tails with a larger roughness below 0.12. What an LTC misses of them is
+// less than the noise of equally weighted samples, most of which is in the tails; near the horizon
+// they have several minima besides, which only graded samples tell apart.
 bool is_sharp(const LobeFrame& frame);
 
 // True for what no table asks for by default: thinner than alpha_min, or nearer to the horizon than

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "fit/lobe_frame.h"
 
+#include "brdf/lobe_model.h"
 #include "table/storage.h"
 #include "table/symmetry.h"
 
@@ -9,11 +10,7 @@ namespace ltc {
 
 LobeFrame::LobeFrame(const Lobe& lobe)
     : lobe(lobe), omega_v(lobe.omega_v()), rotation(mirror_rotation(omega_v)) {
-  Eigen::Matrix3d unscaled;
-  unscaled.col(0) << 2 * omega_v.z(), 0, 2 * omega_v.x();
-  unscaled.col(1) << 0, 2 * omega_v.z(), 2 * omega_v.y();
-  unscaled.col(2) << -omega_v.x(), -omega_v.y(), omega_v.z();
-  first_order = rotation.transpose() * unscaled;
+  first_order = rotation.transpose() * lobe.model->first_order(lobe);
   first_order.col(2) = Eigen::Vector3d::UnitZ();  // exactly, by the definition of Q
 }
 

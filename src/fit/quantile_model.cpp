@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "brdf/ggx.h"
+#include "brdf/lobe_model.h"
 #include "core/random.h"
 
 namespace ltc {
@@ -17,13 +17,6 @@ constexpr std::size_t row_width = kernels::row_width;
 
 // Where bins and starts lie is decided by a subset of the target's samples.
 constexpr std::size_t subset_stride = 8;
-
-void reserve(TargetSamples& samples, std::size_t count) {
-  samples.size = count;
-  for (AlignedFloats* array : {&samples.gx, &samples.gy, &samples.gz, &samples.weight})
-    if (array->size() < count)
-      array->resize(count);
-}
 
 }  // namespace
 
@@ -54,53 +47,54 @@ double target_deviation(const TargetSamples& samples, const Eigen::Vector3d& dir
   return deviation / total;
 }
 
+namespace {
+
+// Sample i as the kernels take it.
+void set(TargetSamples& samples, std::size_t i, const Eigen::Vector3d& offset, double weight) {
+  samples.gx[i] = static_cast<float>(offset.x());
+  samples.gy[i] = static_cast<float>(offset.y());
+  samples.gz[i] = static_cast<float>(offset.z());
+  samples.weight[i] = static_cast<float>(weight);
+}
+
+void begin(const LobeFrame& frame, std::size_t count, TargetSamples& samples) {
+  samples.reserve(count);
+  samples.heavy_tails = frame.lobe.model->heavy_tails();
+}
+
+}  // namespace
+
 void sample_rejection_target(const LobeFrame& frame, std::size_t count, std::uint64_t seed,
                              TargetSamples& samples) {
-  reserve(samples, (count + 15) / 16 * 16);
-  const GgxSampler sampler(frame.lobe);
+  begin(frame, lattice_size(count), samples);
+  const std::unique_ptr<LobeSampler> sampler = frame.lobe.model->sampler(frame.lobe);
   Random random(seed);
   const auto uniform = [&] { return random.uniform(); };
   const Eigen::Matrix3d to_frame = frame.rotation.transpose();
-  for (std::size_t i = 0; i < samples.size; ++i) {
-    const Eigen::Vector3d offset =
-        i < count ? (to_frame * sampler.sample_rejection(uniform).offset).eval()
-                  : Eigen::Vector3d::Zero();
-    samples.gx[i] = static_cast<float>(offset.x());
-    samples.gy[i] = static_cast<float>(offset.y());
-    samples.gz[i] = static_cast<float>(offset.z());
-    samples.weight[i] = i < count ? 1.0f : 0.0f;
-  }
+  for (std::size_t i = 0; i < samples.size; ++i)
+    if (i < count)
+      set(samples, i, to_frame * sampler->sample_rejection(uniform).offset, 1);
+    else
+      set(samples, i, Eigen::Vector3d::Zero(), 0);
 }
 
 void sample_weighted_target(const LobeFrame& frame, const TargetLattice& lattice,
                             TargetSamples& samples) {
-  reserve(samples, lattice.size());
-  kernels::TargetParameters parameters{
-      static_cast<float>(frame.lobe.alpha_x), static_cast<float>(frame.lobe.alpha_y),
-      static_cast<float>(frame.omega_v.x()),  static_cast<float>(frame.omega_v.y()),
-      static_cast<float>(frame.omega_v.z()),  {}};
-  for (int i = 0; i < 9; ++i)
-    parameters.rotation[i] = static_cast<float>(frame.rotation(i / 3, i % 3));
-  kernels::sample_target(parameters, lattice.cos_azimuth.data(), lattice.sin_azimuth.data(),
-                         lattice.height.data(), lattice.size(), samples.gx.data(),
-                         samples.gy.data(), samples.gz.data(), samples.weight.data());
+  begin(frame, lattice.size(), samples);
+  frame.lobe.model->sample_target(frame.lobe, frame.rotation, lattice, samples);
 }
 
 void sample_graded_target(const LobeFrame& frame, const GradedLattice& lattice,
                           TargetSamples& samples) {
-  reserve(samples, lattice.size());
-  const GgxSampler sampler(frame.lobe);
+  begin(frame, lattice.size(), samples);
+  const std::unique_ptr<LobeSampler> sampler = frame.lobe.model->sampler(frame.lobe);
   const Eigen::Matrix3d to_frame = frame.rotation.transpose();
   // Their masses add up to one; the weights of other targets to about their number.
   const auto scale = static_cast<double>(lattice.size());
   for (std::size_t i = 0; i < samples.size; ++i) {
-    const GgxSample sample = sampler.reflect(sampler.visible_normal(
-        lattice.cos_azimuth[i], lattice.sin_azimuth[i], 1 - lattice.depth[i]));
-    const Eigen::Vector3d offset = to_frame * sample.offset;
-    samples.gx[i] = static_cast<float>(offset.x());
-    samples.gy[i] = static_cast<float>(offset.y());
-    samples.gz[i] = static_cast<float>(offset.z());
-    samples.weight[i] = static_cast<float>(scale * lattice.mass[i] * sample.weight);
+    const LobeSample sample =
+        sampler->sample(lattice.cos_azimuth[i], lattice.sin_azimuth[i], 1 - lattice.depth[i]);
+    set(samples, i, to_frame * sample.offset, scale * lattice.mass[i] * sample.weight);
   }
 }
 
@@ -138,6 +132,7 @@ void TargetQuantiles::build(const TargetSamples& samples,
     bins.resize(samples.size);
   }
   const Eigen::Vector3d mean = target_moments(samples).mean;
+  heavy_tails_ = samples.heavy_tails;
   spread_ = 0;
   std::fill(sums_.begin(), sums_.end(), 0.0f);
   for (std::size_t k = 0; k < directions.size(); ++k) {
@@ -162,6 +157,7 @@ void TargetQuantiles::build(const TargetSamples& samples,
 
 void TargetQuantiles::keep(BinnedTarget& binned) const {
   binned.spread = spread_;
+  binned.heavy_tails = heavy_tails_;
   binned.values.clear();
   binned.values.reserve(maps_.size() * (2 + 2 * bin_count_));
   for (std::size_t k = 0; k < maps_.size(); ++k) {
@@ -177,6 +173,7 @@ void TargetQuantiles::rebuild(const BinnedTarget& binned,
                               std::size_t bin_count) {
   reserve(directions.size(), bin_count, BinSpacing::even);
   spread_ = binned.spread;
+  heavy_tails_ = binned.heavy_tails;
   const float* values = binned.values.data();
   for (std::size_t k = 0; k < directions.size(); ++k, values += 2 + 2 * bin_count) {
     maps_[k] = {directions[k].x(), directions[k].y(), directions[k].z(), values[0], values[1]};
@@ -189,7 +186,8 @@ void TargetQuantiles::rebuild(const BinnedTarget& binned,
 // quantile function is the cubic with the cell's mass and moment whose slopes at the ends are the
 // bin's edges. In the first and last cell, where an edge is infinite, the quantiles are those of a
 // tail that falls like the GGX lobe's, a + b tau^(-1/2) for the mass tau beyond, with the finite
-// edge as the least of them and the cell's moment: integrated, a linear part and a root.
+// edge as the least of them and the cell's moment: integrated, a linear part and a root. Where the
+// lobe has no such tails, they are all the cell's mean.
 void TargetQuantiles::cut_into_cells(std::size_t direction) {
   const kernels::ProjectionMap& map = maps_[direction];
   const float* sums = sums_.data() + direction * 2 * bin_count_;
@@ -210,7 +208,8 @@ void TargetQuantiles::cut_into_cells(std::size_t direction) {
     const bool open = is_first || is_last;
     const double lower = width * (map.centre + unit_edges_[b] / map.inverse_scale);
     const double upper = width * (map.centre + unit_edges_[b + 1] / map.inverse_scale);
-    const double tail = open && width > 0 ? 2 * (rise - (is_first ? upper : lower)) : 0;
+    const double tail =
+        open && heavy_tails_ && width > 0 ? 2 * (rise - (is_first ? upper : lower)) : 0;
     if (is_first)
       first_tail_[direction] = static_cast<float>(tail);
     if (is_last)

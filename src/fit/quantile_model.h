@@ -4,7 +4,7 @@
 // sliced-Wasserstein distance as a function of the frame matrix P.
 //
 // For a projection direction d let F be the distribution function of d . omega over the LTC and G
-// the one over the GGX lobe. The loss is mean_d of int_0^1 |F^-1(u) - G^-1(u)| du (equation 9 of
+// the one over the lobe. The loss is mean_d of int_0^1 |F^-1(u) - G^-1(u)| du (equation 9 of
 // Aakash et al. 2022). What moves when P moves is the quantile function, and its derivative is a
 // conditional mean,
 //     dF^-1(u)/dP = E[dx/dP | x = F^-1(u)],   dx/dP = (1/|P a'|) (d - x f) a'^T,  a' = A omega_o.
@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "brdf/lobe_model.h"
 #include "core/aligned.h"
 #include "fit/kernels.h"
 #include "fit/lobe_frame.h"
@@ -45,12 +46,6 @@ inline Eigen::Matrix3d unflattened(const Vector9& flat) {
   return matrix;
 }
 
-// Samples of the GGX lobe as offsets from its mirror direction, in the mirror's frame.
-struct TargetSamples {
-  AlignedFloats gx, gy, gz, weight;
-  std::size_t size = 0;  // multiple of 16
-};
-
 // Weighted mean and covariance of every eighth sample: enough to place bins and starts.
 struct TargetMoments {
   Eigen::Vector3d mean;
@@ -64,7 +59,8 @@ TargetMoments target_moments(const TargetSamples& samples);
 double target_deviation(const TargetSamples& samples, const Eigen::Vector3d& direction,
                         double centre);
 
-// Weighted VNDF samples on a lattice (weights G2/G1): so that the lattice's noise is the only one.
+// Weighted samples on a lattice (for GGX reflections about visible normals, weights G2/G1): so that
+// the lattice's noise is the only one.
 void sample_weighted_target(const LobeFrame& frame, const TargetLattice& lattice,
                             TargetSamples& samples);
 
@@ -73,7 +69,7 @@ void sample_weighted_target(const LobeFrame& frame, const TargetLattice& lattice
 void sample_graded_target(const LobeFrame& frame, const GradedLattice& lattice,
                           TargetSamples& samples);
 
-// `count` samples of algorithm 1 (VNDF and rejection), all of weight 1, padded with weight 0.
+// `count` samples of algorithm 1 (by rejection), all of weight 1, padded with weight 0.
 void sample_rejection_target(const LobeFrame& frame, std::size_t count, std::uint64_t seed,
                              TargetSamples& samples);
 
@@ -82,6 +78,7 @@ void sample_rejection_target(const LobeFrame& frame, std::size_t count, std::uin
 struct BinnedTarget {
   std::vector<float> values;  // direction-major: centre, 1 / scale, pairs (w, w xi)
   double spread = 0;
+  bool heavy_tails = true;
 };
 
 // The target seen along a set of directions: for each, mass and first moment of the lobe below
@@ -115,6 +112,7 @@ class TargetQuantiles {
   std::size_t bin_count_ = 0;
   BinSpacing spacing_ = BinSpacing::even;
   double spread_ = 0;
+  bool heavy_tails_ = true;
   std::vector<kernels::ProjectionMap> maps_;
   std::vector<double> unit_edges_;
   // Direction-major, see kernels::TargetCells; `mass_` one longer a direction than the others.

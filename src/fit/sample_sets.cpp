@@ -9,41 +9,12 @@
 #include "core/random.h"
 
 namespace ltc {
-namespace {
-
-double fraction(double value) {
-  return value - std::floor(value);
-}
-
-std::size_t rounded_up(std::size_t count) {
-  return (count + 15) / 16 * 16;
-}
-
-// The mean slope of a sharp lobe is an integral of (1 - u)^(-1/2) over the heights, for cosine
-// samples as for the target's, and only here has its sum over n samples no error of the order
-// n^(-1/2) (1 - 0.697 is the zero of Hurwitz's zeta(1/2, a)). At 0.92 the outermost sample alone
-// makes the lobe 1.6 % too wide for n = 4096.
-constexpr double place_in_stratum = 0.6973;
-
-// Point i of n: the azimuth steps by the golden ratio, the height runs through n strata and stands
-// at the same place in each.
-struct LatticePoint {
-  double azimuth, height;
-};
-LatticePoint lattice_point(std::size_t i, std::size_t n, double shift) {
-  constexpr double golden = 0.61803398874989484820;
-  const double height = (static_cast<double>(i) + place_in_stratum) / static_cast<double>(n);
-  const double azimuth = fraction(shift + static_cast<double>(i) * golden);
-  return {2 * std::numbers::pi * azimuth, height};
-}
-
-}  // namespace
 
 CosineSet make_cosine_set(std::size_t count, double shift) {
-  const std::size_t n = rounded_up(count);
+  const std::size_t n = lattice_size(count);
   CosineSet set{AlignedFloats(n), AlignedFloats(n), AlignedFloats(n), {}};
   for (std::size_t i = 0; i < n; ++i) {
-    const auto [azimuth, height] = lattice_point(i, n, shift);
+    const auto [azimuth, height] = lattice_point(i, n, shift, place_of_slopes);
     const double radius = std::sqrt(height);
     set.x[i] = static_cast<float>(radius * std::cos(azimuth));
     set.y[i] = static_cast<float>(radius * std::sin(azimuth));
@@ -52,37 +23,11 @@ CosineSet make_cosine_set(std::size_t count, double shift) {
   return set;
 }
 
-TargetLattice make_target_lattice(std::size_t count, double shift) {
-  const std::size_t n = rounded_up(count);
-  TargetLattice lattice{AlignedFloats(n), AlignedFloats(n), AlignedFloats(n)};
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto [azimuth, height] = lattice_point(i, n, shift);
-    lattice.cos_azimuth[i] = static_cast<float>(std::cos(azimuth));
-    lattice.sin_azimuth[i] = static_cast<float>(std::sin(azimuth));
-    lattice.height[i] = static_cast<float>(height);
-  }
-  return lattice;
-}
-
 std::size_t CosineSet::total() const {
   std::size_t sum = multiplicity.empty() ? size() : 0;
   for (const std::int32_t count : multiplicity)
     sum += static_cast<std::size_t>(count);
   return sum;
-}
-
-GradedLattice make_graded_lattice(std::size_t count) {
-  const std::size_t n = rounded_up(count);
-  GradedLattice lattice;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double azimuth = lattice_point(i, n, 0.0).azimuth;
-    const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
-    lattice.cos_azimuth.push_back(std::cos(azimuth));
-    lattice.sin_azimuth.push_back(std::sin(azimuth));
-    lattice.depth.push_back(t * t);
-    lattice.mass.push_back(2 * t / static_cast<double>(n));
-  }
-  return lattice;
 }
 
 CosineSet make_graded_cosine_set(std::size_t count) {
@@ -105,7 +50,7 @@ std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const double z = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     const double azimuth =
-        2 * std::numbers::pi * fraction(static_cast<double>(i) / std::numbers::phi);
+        2 * std::numbers::pi * std::fmod(static_cast<double>(i) / std::numbers::phi, 1);
     const double radius = std::sqrt((1 - z) * (1 + z));
     directions[i] = {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
   }

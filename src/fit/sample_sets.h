@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// The fixed low-discrepancy sets of the fit: cosine samples, the GGX target's lattice, directions.
+// The fixed low-discrepancy sets of the fit: cosine samples and directions; brdf/lattice.h has
+// those of the target.
 //
 // Fixed sets make the fit a deterministic function of its input and let every entry share them.
 #pragma once
@@ -11,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "brdf/lattice.h"
 #include "core/aligned.h"
 
 namespace ltc {
@@ -27,24 +29,8 @@ struct CosineSet {
 // lattice by that share of a circle: sets with different shifts share no samples.
 CosineSet make_cosine_set(std::size_t count, double shift = 0.0);
 
-// A rank-1 lattice on the unit square, as the VNDF sampler wants it: (cos, sin)(2 pi u1) and u2.
-struct TargetLattice {
-  AlignedFloats cos_azimuth, sin_azimuth, height;
-  std::size_t size() const { return height.size(); }
-};
-TargetLattice make_target_lattice(std::size_t count, double shift = 0.0);
-
-// The same points with heights u so graded that the heavy tails of sharp lobes, which are made of
-// the samples with u near 1, have as many of them as all the rest: 1 - u = t^2 with t evenly
-// spaced. Point i of n counts 2 i + 1 of n^2, which is exactly the mass of its cell.
+// The same on a graded lattice: point i of n counts 2 i + 1 of n^2.
 CosineSet make_graded_cosine_set(std::size_t count);
-// Heights as 1 - u, which single precision could not tell from u = 1.
-struct GradedLattice {
-  std::vector<double> cos_azimuth, sin_azimuth, depth, mass;
-  std::size_t size() const { return depth.size(); }
-};
-GradedLattice make_graded_lattice(std::size_t count);
-
 // Spherical Fibonacci directions on the upper hemisphere; the lower one adds nothing, since d and
 // -d see the same distance.
 std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count);

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 
+#include "brdf/lobe_model.h"
 #include "core/ordered_float.h"
 #include "core/random.h"
 #include "fit/starting_points.h"
@@ -57,7 +58,7 @@ class Descender {
         kind_(kind),
         lattice_(lattice),
         frame_(request.lobe),
-        sampler_(request.lobe),
+        sampler_(request.lobe.model->sampler(request.lobe)),
         free_(free_entries(request.lobe)),
         progress_(request.progress),
         workspace_(workspace),
@@ -150,7 +151,7 @@ class Descender {
     for (std::size_t i = 0; i < count_; ++i) {
       const double u_azimuth = random_.uniform();
       const double u_height = random_.uniform();
-      const GgxSample sample = sampler_.sample_visible(u_azimuth, u_height);
+      const LobeSample sample = sampler_->sample(u_azimuth, u_height);
       if (kind_ == TargetKind::rejection && random_.uniform() >= sample.weight)
         continue;
       const Eigen::Vector3d g = to_frame * sample.offset;
@@ -208,7 +209,7 @@ class Descender {
   TargetKind kind_;
   const TargetLattice& lattice_;
   LobeFrame frame_;
-  GgxSampler sampler_;
+  std::unique_ptr<LobeSampler> sampler_;
   FreeEntries free_;
   const Progress* progress_;
   FitWorkspace& workspace_;

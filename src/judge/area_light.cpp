@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 
+#include "brdf/lobe_model.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "ltc/ltsd.h"
@@ -30,10 +31,10 @@ AreaLightSettings checked(const AreaLightSettings& settings) {
   return settings;
 }
 
-VisibleNormalLattice random_lattice(const AreaLightSettings& settings, std::uint64_t index) {
+SampleLattice random_lattice(const AreaLightSettings& settings, std::uint64_t index) {
   Random random(settings.seed + index);
   const double azimuth_shift = random.uniform();
-  return VisibleNormalLattice(checked(settings).samples / 2, azimuth_shift, random.uniform());
+  return SampleLattice(checked(settings).samples / 2, azimuth_shift, random.uniform());
 }
 
 // Weighted mean of the light directions, relative to the mirror direction.
@@ -124,9 +125,10 @@ AreaLightJudge::AreaLightJudge(const AreaLightSettings& settings)
       lattices_{random_lattice(settings, 0), random_lattice(settings, 1)} {}
 
 void AreaLightJudge::set_lobe(const Lobe& lobe, std::uint64_t draw) {
+  const std::unique_ptr<LobeSampler> sampler = lobe.model->sampler(lobe);
   for (std::size_t half = 0; half < 2; ++half)
-    sample_weighted(lobe, lattices_[half], samples_[half]);
-  draw_quads(lobe, draw);
+    sampler->sample_all(lattices_[half], samples_[half]);
+  draw_quads(*sampler, draw);
 
   const std::array<double, 2> totals{samples_[0].weight.sum(), samples_[1].weight.sum()};
   amplitude_ = (samples_[0].weight.mean() + samples_[1].weight.mean()) / 2;
@@ -142,16 +144,14 @@ void AreaLightJudge::set_lobe(const Lobe& lobe, std::uint64_t draw) {
   standard_error_ = std::sqrt(squared_errors / static_cast<double>(quads_.size()));
 }
 
-void AreaLightJudge::draw_quads(const Lobe& lobe, std::uint64_t draw) {
+void AreaLightJudge::draw_quads(const LobeSampler& sampler, std::uint64_t draw) {
   constexpr double full_turn = 2 * std::numbers::pi;
   const double scale = mean_distance(samples_[0], mean_offset(samples_[0]));
-  const GgxSampler sampler(lobe);
   QuadSequence sequence(settings_.seed + 2, draw * settings_.quads);
   quads_.clear();
   while (quads_.size() < settings_.quads) {
     const auto [azimuth, height, acceptance, turn, size_u, size_v] = sequence.next();
-    const GgxSample sample = sampler.reflect(sampler.visible_normal(
-        std::cos(full_turn * azimuth), std::sin(full_turn * azimuth), height));
+    const LobeSample sample = sampler.sample(azimuth, height);
     if (acceptance >= sample.weight)
       continue;
     const Eigen::Vector3d center = (sampler.mirror() + sample.offset).normalized();

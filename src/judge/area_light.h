@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "brdf/ggx.h"
-#include "brdf/ggx_lattice.h"
+#include "brdf/lobe.h"
+#include "brdf/lobe_sampler.h"
 
 namespace ltc {
 
@@ -60,10 +60,10 @@ class AreaLightJudge {
   double amplitude() const { return amplitude_; }  // of the lobe
 
  private:
-  void draw_quads(const Lobe& lobe, std::uint64_t draw);
+  void draw_quads(const LobeSampler& sampler, std::uint64_t draw);
 
   AreaLightSettings settings_;
-  std::array<VisibleNormalLattice, 2> lattices_;
+  std::array<SampleLattice, 2> lattices_;
   std::array<WeightedSamples, 2> samples_;
   std::vector<Quad> quads_;
   std::vector<double> fractions_;

@@ -142,11 +142,11 @@ FitSettings floor_fit_settings() {
   return settings;
 }
 
-std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alpha_min,
+std::vector<QueryFloor> fit_queries(const QualitySettings& settings, const Grid& grid,
                                     const RunContext& run) {
   check(settings);
   const std::vector<Lobe> lobes =
-      random_queries(settings.range, settings.queries, settings.seed, alpha_min);
+      random_queries(settings.range, settings.queries, settings.seed, grid.alpha_min, *grid.model);
   std::vector<QueryFloor> floors(lobes.size());
   const std::unique_ptr<Solver> solver = make_solver(settings.floor_fit);
   struct State {
@@ -194,7 +194,7 @@ QualityReport measure_quality(const Table& table, const QualitySettings& setting
   check(settings);
   QualitySettings served = settings;
   served.range = query_range_of(table.grid, settings.range);
-  return measure_quality(table, served, fit_queries(served, table.grid.alpha_min, run), run);
+  return measure_quality(table, served, fit_queries(served, table.grid, run), run);
 }
 
 }  // namespace ltc

@@ -124,10 +124,10 @@ struct QualityReport {
   std::vector<std::size_t> worst_queries;
 };
 
-// The queries of the settings, each fitted by itself; `alpha_min` is that of the tables which they
-// are for. The same bits with any number of threads, as below. Throws Interrupted when a stop
+// The queries of the settings, each fitted by itself; `grid` is one of the tables which they are
+// for. The same bits with any number of threads, as below. Throws Interrupted when a stop
 // is asked for, InputError for settings without samples or directions.
-std::vector<QueryFloor> fit_queries(const QualitySettings& settings, double alpha_min,
+std::vector<QueryFloor> fit_queries(const QualitySettings& settings, const Grid& grid,
                                     const RunContext& run);
 
 // `floors` are those of fit_queries with the same settings, so that several tables can share them.

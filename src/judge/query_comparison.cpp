@@ -2,9 +2,13 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "judge/query_comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "brdf/lobe_model.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "table/query_range.h"
 
@@ -16,9 +20,8 @@ bool is_range(const QueryRange& range) {
          range.cos_theta_first <= range.cos_theta_last && range.phi_first <= range.phi_last;
 }
 
-QueryComparison compare_query(const Table& a, const Table& b, const Lobe& lobe,
-                              std::size_t query, const QualitySettings& settings,
-                              AreaLightJudge& area_light) {
+QueryComparison compare_query(const Table& a, const Table& b, const Lobe& lobe, std::size_t query,
+                              const QualitySettings& settings, AreaLightJudge& area_light) {
   const Answer from_a = ask(a, lobe), from_b = ask(b, lobe);
   QueryComparison result;
   result.lobe = lobe;
@@ -61,8 +64,12 @@ std::optional<QueryRange> common_range(const Grid& a, const Grid& b) {
 std::vector<QueryComparison> compare_queries(const Table& a, const Table& b,
                                              const QualitySettings& settings,
                                              const RunContext& run) {
-  const std::vector<Lobe> lobes = random_queries(settings.range, settings.queries, settings.seed,
-                                                    std::max(a.grid.alpha_min, b.grid.alpha_min));
+  if (a.grid.model != b.grid.model)
+    throw InputError(fmt::format("the tables are of different BRDFs: \"{}\" and \"{}\"",
+                                 a.grid.model->name(), b.grid.model->name()));
+  const std::vector<Lobe> lobes =
+      random_queries(settings.range, settings.queries, settings.seed,
+                     std::max(a.grid.alpha_min, b.grid.alpha_min), *a.grid.model);
   std::vector<QueryComparison> queries(lobes.size());
   const AreaLightJudge prototype = area_light_judge(settings);
   parallel_for_each<AreaLightJudge>(

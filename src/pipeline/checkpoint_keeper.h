@@ -25,7 +25,7 @@ struct CheckpointTask {
   const Config& config;
   const std::vector<bool>& needed;
   double seconds = 5;       // between two of them; 0: none
-  std::string resume_name;  // what goes on from it, in messages: "--resume"
+  std::string resume_name;  // the option that goes on from it, in messages
 };
 
 // The message, and what goes on from this file if there is one.

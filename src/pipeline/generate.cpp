@@ -194,7 +194,6 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
   };
 
   Table table = Table::empty(config.grid, config.storage);
-  table.brdf = config.brdf;
   table.seed = config.fit.seed;
   table.config = to_toml(config);
   table.generator = generator();

@@ -56,8 +56,7 @@ Work plan_work(const RunRequest& request) {
       throw InputError(fmt::format("{}: cannot be extended; expected a table's {}",
                                    request.extend.string(), endings_text(keeps_fits)));
     work.existing = read_table(request.extend);
-    require_extendable(*work.existing, request.extend.string(), config.grid, config.storage,
-                       config.brdf);
+    require_extendable(*work.existing, request.extend.string(), config.grid, config.storage);
     work.to_fit = lacking_entries(*work.existing, work.needed);
   }
   return work;

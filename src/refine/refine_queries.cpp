@@ -20,8 +20,7 @@ void add(const std::vector<Lobe>& more, double share, WeightedLobes& queries) {
 
 // `count` lobes, the ranges in turn, each with what `draw` makes of it for its own part.
 template <typename Draw>
-std::vector<Lobe> from_all(const std::vector<QueryRange>& asked, std::size_t count,
-                              Draw&& draw) {
+std::vector<Lobe> from_all(const std::vector<QueryRange>& asked, std::size_t count, Draw&& draw) {
   std::vector<Lobe> lobes;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const std::size_t part = (count + asked.size() - 1 - i) / asked.size();
@@ -38,7 +37,7 @@ std::vector<Lobe> lobes_of_table(const Grid& grid, std::size_t count) {
     const double alpha = grid.alpha.value(u[0]);
     lobes.push_back({std::max(alpha, grid.alpha_min),
                      std::max(grid.lambda.value(u[1]) * alpha, grid.alpha_min),
-                     grid.theta.value(u[2]), grid.phi.value(u[3])});
+                     grid.theta.value(u[2]), grid.phi.value(u[3]), grid.model});
   }
   return lobes;
 }
@@ -86,7 +85,7 @@ WeightedLobes queries_to_refine_on(const Grid& grid, const std::vector<bool>& ha
   WeightedLobes queries;
   add(from_all(asked, count - of_table,
                [&](const QueryRange& range, std::size_t part, std::size_t) {
-                 return lattice_queries(range, 0, part, grid.alpha_min);
+                 return lattice_queries(range, 0, part, grid.alpha_min, *grid.model);
                }),
       free_weight * (1 - settings.table_share), queries);
   add(lobes_of_table(grid, of_table), free_weight * settings.table_share, queries);
@@ -99,7 +98,7 @@ WeightedLobes queries_held_out(const Grid& grid, const std::vector<QueryRange>& 
   WeightedLobes queries;
   add(from_all(asked, std::min(static_cast<std::size_t>(settings.held_out_queries), most),
                [&](const QueryRange& range, std::size_t part, std::size_t i) {
-                 return random_queries(range, part, held_out_seed + i, grid.alpha_min);
+                 return random_queries(range, part, held_out_seed + i, grid.alpha_min, *grid.model);
                }),
       1, queries);
   return queries;

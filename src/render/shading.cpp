@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "brdf/lobe_model.h"
 #include "ltc/ltsd.h"
 #include "ltc/polygon.h"
 #include "table/lookup.h"
@@ -26,19 +27,19 @@ double schlick(double f0, double v_dot_h) {
 
 // The densities that the balance heuristic weighs, per steradian, and what a direction brings.
 struct Contribution {
-  double light_density;   // of points uniform on the light
-  double normal_density;  // of reflections about visible normals
-  double value;           // GGX times Fresnel and cosine
+  double light_density;  // of points uniform on the light
+  double lobe_density;   // of the lobe's own samples
+  double value;          // BRDF times Fresnel and cosine
 };
 
 double weighed(Technique technique, const Contribution& c) {
   switch (technique) {
     case Technique::light:
       return c.value / c.light_density;
-    case Technique::visible_normals:
-      return c.value / c.normal_density;
+    case Technique::lobe:
+      return c.value / c.lobe_density;
     default:
-      return c.value / (c.light_density + c.normal_density);
+      return c.value / (c.light_density + c.lobe_density);
   }
 }
 
@@ -46,11 +47,9 @@ double weighed(Technique technique, const Contribution& c) {
 class Integrand {
  public:
   Integrand(const Lobe& lobe, double f0, const RectangleLight& light)
-      : lobe_(lobe),
-        f0_(f0),
+      : f0_(f0),
         light_(light),
-        sampler_(lobe),
-        lambda_v_(ggx_lambda(lobe.alpha_x, lobe.alpha_y, sampler_.omega_v())),
+        sampler_(lobe.model->sampler(lobe)),
         normal_(light.normal()),
         height_(-normal_.dot(light.center)),
         area_(light.area()),
@@ -65,21 +64,16 @@ class Integrand {
       return 0;
     const double distance = point.norm();
     const Eigen::Vector3d omega_l = point / distance;
-    Contribution c;
-    c.light_density = light_density(distance);
-    c.normal_density = sampler_.vndf_density(omega_l);
-    const double v_dot_h = std::sqrt((1 + sampler_.omega_v().dot(omega_l)) / 2);
-    const double weight =
-        (1 + lambda_v_) / (1 + lambda_v_ + ggx_lambda(lobe_.alpha_x, lobe_.alpha_y, omega_l));
-    c.value = c.normal_density * weight * schlick(f0_, v_dot_h);
-    return weighed(technique, c);
+    const LobeDensities lobe = sampler_->densities(omega_l);
+    const double v_dot_h = std::sqrt((1 + sampler_->omega_v().dot(omega_l)) / 2);
+    return weighed(technique, {light_density(distance), lobe.sampling,
+                               lobe.brdf_cosine * schlick(f0_, v_dot_h)});
   }
 
-  // Of a reflection about a visible normal.
-  double from_normal(Technique technique, double cos_azimuth, double sin_azimuth,
-                     double u_height) const {
-    const GgxSample sample =
-        sampler_.reflect(sampler_.visible_normal(cos_azimuth, sin_azimuth, u_height));
+  // Of a sample of the lobe.
+  double from_lobe(Technique technique, double cos_azimuth, double sin_azimuth,
+                   double u_height) const {
+    const LobeSample sample = sampler_->sample(cos_azimuth, sin_azimuth, u_height);
     const double distance = -height_ / normal_.dot(sample.omega_l);
     if (!(sample.weight > 0 && distance > 0))
       return 0;
@@ -87,11 +81,9 @@ class Integrand {
     if (std::abs(from_center.dot(light_.half_u)) * inverse_square_u_ > 1 ||
         std::abs(from_center.dot(light_.half_v)) * inverse_square_v_ > 1)
       return 0;
-    Contribution c;
-    c.light_density = light_density(distance);
-    c.normal_density = sampler_.vndf_density_at_offset(sample.offset);
-    c.value = c.normal_density * sample.weight * schlick(f0_, sample.v_dot_h);
-    return weighed(technique, c);
+    const LobeDensities lobe = sampler_->densities_at_offset(sample.offset);
+    return weighed(technique, {light_density(distance), lobe.sampling,
+                               lobe.brdf_cosine * schlick(f0_, sample.v_dot_h)});
   }
 
  private:
@@ -100,11 +92,9 @@ class Integrand {
     return distance * distance * distance / (area_ * height_);
   }
 
-  Lobe lobe_;
   double f0_;
   RectangleLight light_;
-  GgxSampler sampler_;
-  double lambda_v_;
+  std::unique_ptr<LobeSampler> sampler_;
   Eigen::Vector3d normal_;
   double height_;  // of the origin above the light's plane
   double area_, inverse_square_u_, inverse_square_v_;
@@ -121,8 +111,7 @@ bool is_seen(const RectangleLight& light) {
 
 }  // namespace
 
-double ltc_radiance(const Table& table, const Lobe& lobe, double f0,
-                    const RectangleLight& light) {
+double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const RectangleLight& light) {
   const LookUp found = look_up(table, lobe);
   const double albedo = f0 * found.amplitude + (1 - f0) * found.fresnel;
   if (!found.matrix.allFinite() || found.matrix.determinant() == 0 || !std::isfinite(albedo))
@@ -143,20 +132,17 @@ double ReferenceIntegrator::radiance(const Lobe& lobe, double f0, const Rectangl
   const Integrand integrand(lobe, f0, light);
   const double turn = 2 * std::numbers::pi * shifts[0];
   const double cos_turn = std::cos(turn), sin_turn = std::sin(turn);
-  const double golden = std::numbers::phi - 1;
-  double sum = 0, u = shifts[2];
+  double sum = 0;
   for (std::size_t i = 0; i < lattice_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
     if (technique_ != Technique::light) {
-      const double cosine = lattice_.cos_azimuth()[k], sine = lattice_.sin_azimuth()[k];
-      sum += integrand.from_normal(technique_, cosine * cos_turn - sine * sin_turn,
-                                   sine * cos_turn + cosine * sin_turn,
-                                   wrapped(lattice_.u_height()[k] + shifts[1]));
+      const double cosine = lattice_.cos_azimuth[i], sine = lattice_.sin_azimuth[i];
+      sum += integrand.from_lobe(technique_, cosine * cos_turn - sine * sin_turn,
+                                 sine * cos_turn + cosine * sin_turn,
+                                 wrapped(lattice_.height[i] + shifts[1]));
     }
-    if (technique_ != Technique::visible_normals) {
-      sum += integrand.from_light(technique_, u, wrapped(lattice_.u_height()[k] + shifts[3]));
-      u = wrapped(u + golden);
-    }
+    if (technique_ != Technique::lobe)
+      sum += integrand.from_light(technique_, golden_turns(i, shifts[2]),
+                                  wrapped(lattice_.height[i] + shifts[3]));
   }
   return sum / static_cast<double>(lattice_.size());
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
 // Radiance that a point reflects from a rectangular light: by a table's LTC, exactly integrated,
-// and by sampling GGX, which is the reference.
+// and by sampling the lobe, which is the reference.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
-#include "brdf/ggx_lattice.h"
+#include "brdf/lattice.h"
 #include "render/sphere_scene.h"
 #include "table/table.h"
 
@@ -23,17 +23,16 @@ struct SphereMaterial {
 // (F0 amplitude + (1 - F0) fresnel) times the integral of the LTC over the light (equation 11 of
 // Heitz et al. 2016). The light is cut off at the point's horizon first, and then, transformed, at
 // that of the cosine. NaN where the table has no value or a matrix without an inverse.
-double ltc_radiance(const Table& table, const Lobe& lobe, double f0,
-                    const RectangleLight& light);
+double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const RectangleLight& light);
 
 // Which samples an estimate is made of. Every choice has the same mean.
 enum class Technique {
-  light,            // points uniform on the light's area
-  visible_normals,  // reflections about visible normals
-  both,             // as many of each, weighted by the balance heuristic (Veach 1997)
+  light,  // points uniform on the light's area
+  lobe,   // of the lobe itself, for GGX reflections about visible normals
+  both,   // as many of each, weighted by the balance heuristic (Veach 1997)
 };
 
-// Integrates GGX times Schlick's Fresnel term over a light with samples on shifted lattices.
+// Integrates the BRDF times Schlick's Fresnel term over a light with samples on shifted lattices.
 class ReferenceIntegrator {
  public:
   // `samples` >= 1 of each technique.
@@ -47,7 +46,7 @@ class ReferenceIntegrator {
 
  private:
   Technique technique_;
-  VisibleNormalLattice lattice_;
+  SampleLattice lattice_;
 };
 
 }  // namespace ltc

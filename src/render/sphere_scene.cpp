@@ -39,9 +39,9 @@ RectangleLight SphereScene::facing_origin(const Eigen::Vector3d& center, double 
   return {center, half_width * frame.row(0).transpose(), half_height * frame.row(1).transpose()};
 }
 
-Lobe ShadingPoint::lobe(double alpha_x, double alpha_y) const {
+Lobe ShadingPoint::lobe(double alpha_x, double alpha_y, const LobeModel& model) const {
   return {alpha_x, alpha_y, std::atan2(std::hypot(omega_v.x(), omega_v.y()), omega_v.z()),
-          std::atan2(omega_v.y(), omega_v.x())};
+          std::atan2(omega_v.y(), omega_v.x()), &model};
 }
 
 RectangleLight ShadingPoint::seen(const RectangleLight& light) const {

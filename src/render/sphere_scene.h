@@ -44,7 +44,7 @@ struct ShadingPoint {
   Eigen::Matrix3d to_tangent;  // world directions to the tangent frame
   Eigen::Vector3d omega_v;     // towards the camera, in the tangent frame
 
-  Lobe lobe(double alpha_x, double alpha_y) const;
+  Lobe lobe(double alpha_x, double alpha_y, const LobeModel& model) const;
   // The light as the point sees it: relative to it, in its tangent frame.
   RectangleLight seen(const RectangleLight& light) const;
 };

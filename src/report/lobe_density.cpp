@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "brdf/albedo.h"
+#include "brdf/lobe_model.h"
 #include "fit/lobe_frame.h"
 #include "ltc/ltsd.h"
 
@@ -38,12 +39,6 @@ constexpr double smooth_share = 0.15;
 // The lobe's mass outside of a window is at most this on each of four sides: 10 % in all.
 constexpr double cut_share = 0.02;
 constexpr double window_margin = 1.15;
-
-// The golden-ratio lattice on the unit square.
-Eigen::Vector2d lattice_point(std::size_t i, std::size_t count) {
-  const double turns = (std::numbers::phi - 1) * static_cast<double>(i);
-  return {turns - std::floor(turns), (static_cast<double>(i) + 0.5) / static_cast<double>(count)};
-}
 
 struct WeightedPoint {
   Eigen::Vector2d at;
@@ -204,22 +199,24 @@ Field mean_density(const PicturedLobe& lobe, const LobeWindow& window,
   return field;
 }
 
-std::vector<WeightedPoint> ggx_points(const GgxSampler& sampler, const LobeWindow& window) {
+std::vector<WeightedPoint> lobe_points(const LobeSampler& sampler, const LobeWindow& window) {
   std::vector<WeightedPoint> points;
   for (std::size_t i = 0; i < window_samples; ++i) {
-    const Eigen::Vector2d u = lattice_point(i, window_samples);
-    const GgxSample sample = sampler.sample_visible(u.x(), u.y());
+    const LobeSample sample = sampler.sample(lattice_point(i, window_samples));
     if (sample.weight > 0)
       points.push_back({window.project(sample.omega_l), sample.weight});
   }
   return points;
 }
 
+Eigen::Vector3d sample_of(const LinearlyTransformed& ltc, std::size_t i, std::size_t count) {
+  return ltc.sample((static_cast<double>(i) + 0.5) / static_cast<double>(count), golden_turns(i));
+}
+
 std::vector<WeightedPoint> ltc_points(const LinearlyTransformed& ltc, const LobeWindow& window) {
   std::vector<WeightedPoint> points;
   for (std::size_t i = 0; i < window_samples; ++i) {
-    const Eigen::Vector2d u = lattice_point(i, window_samples);
-    points.push_back({window.project(ltc.sample(u.y(), u.x())), 1});
+    points.push_back({window.project(sample_of(ltc, i, window_samples)), 1});
   }
   return points;
 }
@@ -250,7 +247,7 @@ LobeWindow hemisphere_window() {
 LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix) {
   LobeWindow window{LobeFrame(lobe).rotation, 0, 0, 0, false};
   Bounds bounds;
-  bounds.include_bulk(ggx_points(GgxSampler(lobe), window));
+  bounds.include_bulk(lobe_points(*lobe.model->sampler(lobe), window));
   if (is_drawable(matrix))
     bounds.include_bulk(ltc_points(LinearlyTransformed(matrix), window));
   const Eigen::Vector2d center = (bounds.low + bounds.high) / 2;
@@ -260,18 +257,17 @@ LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix) {
   return window.half_width > widest_zoom ? hemisphere_window() : window;
 }
 
-Field ggx_density(const Lobe& lobe, const LobeWindow& window, std::size_t side) {
-  const GgxSampler sampler(lobe);
+Field lobe_density(const Lobe& lobe, const LobeWindow& window, std::size_t side) {
+  const std::unique_ptr<LobeSampler> sampler = lobe.model->sampler(lobe);
   const double amplitude = integrate_albedo(lobe, AlbedoRule()).amplitude;
   return mean_density(
-      {[&](const Direction& d) { return sampler.brdf_cosine_at_offset(d.offset) / amplitude; },
+      {[&](const Direction& d) { return sampler->brdf_cosine_at_offset(d.offset) / amplitude; },
        [&](std::size_t i, std::size_t count) {
-         const Eigen::Vector2d u = lattice_point(i, count);
-         const GgxSample sample = sampler.sample_visible(u.x(), u.y());
+         const LobeSample sample = sampler->sample(lattice_point(i, count));
          return Direction{sample.omega_l, sample.offset};
        },
-       [&](const Direction& d) { return sampler.vndf_density_at_offset(d.offset); }},
-      window, sampler.mirror(), side);
+       [&](const Direction& d) { return sampler->densities_at_offset(d.offset).sampling; }},
+      window, sampler->mirror(), side);
 }
 
 Field ltc_density(const Eigen::Matrix3d& matrix, const Lobe& lobe, const LobeWindow& window,
@@ -279,12 +275,11 @@ Field ltc_density(const Eigen::Matrix3d& matrix, const Lobe& lobe, const LobeWin
   if (!is_drawable(matrix))
     return {side, side, std::vector<float>(side * side, no_value)};
   const LinearlyTransformed ltc(matrix);
-  const Eigen::Vector3d mirror = GgxSampler(lobe).mirror();
+  const Eigen::Vector3d mirror = lobe.mirror();
   const auto density = [&](const Direction& d) { return ltc.density(d.omega); };
   return mean_density({density,
                        [&](std::size_t i, std::size_t count) {
-                         const Eigen::Vector2d u = lattice_point(i, count);
-                         const Eigen::Vector3d omega = ltc.sample(u.y(), u.x());
+                         const Eigen::Vector3d omega = sample_of(ltc, i, count);
                          return Direction{omega, omega - mirror};
                        },
                        density},

@@ -37,7 +37,7 @@ LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix);
 // top. Each lobe integrates to one over the hemisphere (GGX) or sphere (LTC). NaN for pixels whose
 // centre is below the horizon in a picture of the hemisphere; all NaN for an LTC whose matrix is
 // singular or not finite. A ridge thinner than a pixel has its mass in the pixels that it crosses.
-picture::Field ggx_density(const Lobe& lobe, const LobeWindow& window, std::size_t side);
+picture::Field lobe_density(const Lobe& lobe, const LobeWindow& window, std::size_t side);
 picture::Field ltc_density(const Eigen::Matrix3d& matrix, const Lobe& lobe,
                            const LobeWindow& window, std::size_t side);
 

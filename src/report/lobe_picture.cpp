@@ -94,7 +94,7 @@ std::string lobe_caption(const Lobe& lobe) {
 picture::PanelRow lobe_panels(const Lobe& lobe, const Eigen::Matrix3d& matrix,
                               picture::Words words, std::size_t side) {
   const LobeWindow window = choose_window(lobe, matrix);
-  const Field ggx = ggx_density(lobe, window, side);
+  const Field ggx = lobe_density(lobe, window, side);
   const Field ltc = ltc_density(matrix, lobe, window, side);
   const Field difference = difference_of(ltc, ggx);
   const picture::Scale scale = density_scale(ggx, ltc);

@@ -97,16 +97,15 @@ void add_edge_ticks(const LobeWindow& window, std::vector<picture::Overlay>& mar
 
 std::vector<picture::Overlay> window_marks(const LobeWindow& window, const Lobe& lobe) {
   std::vector<picture::Overlay> marks;
-  const GgxSampler sampler(lobe);
   if (window.hemisphere) {
     for (const double theta_degrees : {30.0, 60.0, 90.0})
       marks.push_back(ring(window, theta_degrees));
 
   } else {
     add_edge_ticks(window, marks);
-    add_horizon(window, sampler.mirror(), marks);
+    add_horizon(window, lobe.mirror(), marks);
   }
-  add_cross(window, sampler.mirror(), marks);
+  add_cross(window, lobe.mirror(), marks);
   return marks;
 }
 

@@ -7,19 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "brdf/lobe_model.h"
 #include "core/ordered_float.h"
 #include "fit/sample_sets.h"
 
 namespace ltc {
 namespace {
-
-constexpr double golden_ratio_step = 0.61803398874989484820;
-
-double fraction(double value) {
-  return value - std::floor(value);
-}
 
 // int_0^1 |F^-1(u) - G^-1(u)| du of two staircases.
 double distance(const std::vector<double>& f, const std::vector<double>& f_mass,
@@ -61,41 +55,26 @@ double deviation(const std::vector<double>& f, const std::vector<double>& mass) 
 
 }  // namespace
 
-GradedJudge::Lattice GradedJudge::make_lattice(std::size_t count, double turn) {
-  Lattice lattice;
-  const auto n = static_cast<double>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double t = (static_cast<double>(i) + 0.5) / n;
-    const double azimuth =
-        2 * std::numbers::pi * fraction(turn + static_cast<double>(i) * golden_ratio_step);
-    lattice.cos_azimuth.push_back(std::cos(azimuth));
-    lattice.sin_azimuth.push_back(std::sin(azimuth));
-    lattice.height.push_back(1 - t * t);
-    lattice.mass.push_back(2 * t / n);
-  }
-  return lattice;
-}
-
 GradedJudge::GradedJudge(std::size_t samples, std::size_t directions, std::uint64_t seed)
-    : of_lobe_(make_lattice(samples, 0.713 + 1e-3 * static_cast<double>(seed % 991))),
-      of_lobe_again_(make_lattice(samples, 0.391 + 1e-3 * static_cast<double>(seed % 983))),
-      of_cosine_(make_lattice(samples, 0.237 + 1e-3 * static_cast<double>(seed % 997))),
+    : of_lobe_(make_graded_lattice(samples, 0.713 + 1e-3 * static_cast<double>(seed % 991))),
+      of_lobe_again_(make_graded_lattice(samples, 0.391 + 1e-3 * static_cast<double>(seed % 983))),
+      of_cosine_(make_graded_lattice(samples, 0.237 + 1e-3 * static_cast<double>(seed % 997))),
       directions_(turned_directions(directions, seed)),
       lobe_(directions),
-      keys_(samples) {
-  points_.offset.resize(3, static_cast<Eigen::Index>(samples));
-  points_.mass.resize(samples);
-  staircase_.value.resize(samples);
-  staircase_.mass.resize(samples);
+      keys_(of_lobe_.size()) {
+  points_.offset.resize(3, static_cast<Eigen::Index>(keys_.size()));
+  points_.mass.resize(keys_.size());
+  staircase_.value.resize(keys_.size());
+  staircase_.mass.resize(keys_.size());
 }
 
-void GradedJudge::sample_lobe(const GgxSampler& sampler, const Lattice& lattice,
+void GradedJudge::sample_lobe(const LobeSampler& sampler, const GradedLattice& lattice,
                               Points& points) const {
   const Eigen::Matrix3d to_frame = frame_->rotation.transpose();
   double total = 0;
   for (std::size_t i = 0; i < lattice.mass.size(); ++i) {
-    const GgxSample sample = sampler.reflect(
-        sampler.visible_normal(lattice.cos_azimuth[i], lattice.sin_azimuth[i], lattice.height[i]));
+    const LobeSample sample =
+        sampler.sample(lattice.cos_azimuth[i], lattice.sin_azimuth[i], 1 - lattice.depth[i]);
     points.offset.col(static_cast<Eigen::Index>(i)) = to_frame * sample.offset;
     points.mass[i] = lattice.mass[i] * sample.weight;
     total += points.mass[i];
@@ -129,8 +108,8 @@ double GradedJudge::distance_to_lobe(const Points& points) {
 
 void GradedJudge::set_lobe(const Lobe& lobe) {
   frame_.emplace(lobe);
-  const GgxSampler sampler(lobe);
-  sample_lobe(sampler, of_lobe_, points_);
+  const std::unique_ptr<LobeSampler> sampler = lobe.model->sampler(lobe);
+  sample_lobe(*sampler, of_lobe_, points_);
   spread_ = 0;
   const hwy::Sorter sorter;
   for (std::size_t k = 0; k < directions_.size(); ++k) {
@@ -138,7 +117,7 @@ void GradedJudge::set_lobe(const Lobe& lobe) {
     spread_ += deviation(lobe_[k].value, lobe_[k].mass);
   }
   spread_ /= static_cast<double>(directions_.size());
-  sample_lobe(sampler, of_lobe_again_, points_);
+  sample_lobe(*sampler, of_lobe_again_, points_);
   noise_ = distance_to_lobe(points_);
 }
 
@@ -146,10 +125,10 @@ double GradedJudge::loss(const Eigen::Matrix3d& matrix) {
   const Eigen::Matrix3d p = frame_->rotation.transpose() * matrix / matrix.cwiseAbs().maxCoeff();
   for (std::size_t i = 0; i < of_cosine_.mass.size(); ++i) {
     // Of a clamped cosine the squared sine is uniform, and the squared cosine t^2.
-    const double sine = std::sqrt(of_cosine_.height[i]);
+    const double sine = std::sqrt(1 - of_cosine_.depth[i]);
     const Eigen::Vector3d f =
         p * Eigen::Vector3d(sine * of_cosine_.cos_azimuth[i], sine * of_cosine_.sin_azimuth[i],
-                            std::sqrt(1 - of_cosine_.height[i]));
+                            std::sqrt(of_cosine_.depth[i]));
     const double lateral = f.head<2>().squaredNorm(), length = f.norm();
     // f_z / |f| - 1, without cancellation in front.
     points_.offset.col(static_cast<Eigen::Index>(i)) << f.x() / length, f.y() / length,

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "brdf/ggx.h"
+#include "brdf/lobe_model.h"
 #include "core/aligned.h"
 #include "fit/lobe_frame.h"
 
@@ -26,8 +26,9 @@ namespace ltc {
 // noise look better than it. With 1 - u = t^2, t evenly spaced and weights 2 t, the integrand is
 // smooth and the noise falls as 1/n.
 //
-// Nothing of it is shared with the fit: sampling, transformation and projection are in double, the
-// sets are its own, and quantiles are compared exactly by sorting (keys are rounded to float).
+// Of the fit it shares the lattice alone, turned to places of its own: sampling, transformation and
+// projection are in double, and quantiles are compared exactly by sorting (keys are rounded to
+// float).
 class GradedJudge {
  public:
   GradedJudge(std::size_t samples, std::size_t directions, std::uint64_t seed);
@@ -47,12 +48,6 @@ class GradedJudge {
   double spread() const { return spread_; }
 
  private:
-  // Points and weights of one set; masses sum up to 1.
-  struct Lattice {
-    std::vector<double> cos_azimuth, sin_azimuth, height, mass;
-  };
-  static Lattice make_lattice(std::size_t count, double turn);
-
   struct Points {  // offsets from the mirror direction, in its frame, as columns
     Eigen::Matrix3Xd offset;
     std::vector<double> mass;
@@ -61,13 +56,13 @@ class GradedJudge {
   struct Staircase {
     std::vector<double> value, mass;
   };
-  void sample_lobe(const GgxSampler& sampler, const Lattice& lattice, Points& points) const;
+  void sample_lobe(const LobeSampler& sampler, const GradedLattice& lattice, Points& points) const;
   void sort(const Points& points, const Eigen::Vector3d& direction, const hwy::Sorter& sorter,
             Staircase& staircase);
   // Mean over the directions of the distance to the lobe.
   double distance_to_lobe(const Points& points);
 
-  Lattice of_lobe_, of_lobe_again_, of_cosine_;
+  GradedLattice of_lobe_, of_lobe_again_, of_cosine_;
   std::vector<Eigen::Vector3d> directions_;
   std::optional<LobeFrame> frame_;
   std::vector<Staircase> lobe_;  // one a direction

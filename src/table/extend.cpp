@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "table/extend.h"
 
+#include "brdf/lobe_model.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -80,9 +82,9 @@ void copy_entry(const Table& from, Table& to, std::size_t flat) {
 }  // namespace
 
 void require_extendable(const Table& existing, std::string_view source, const Grid& grid,
-                        Storage storage, std::string_view brdf) {
-  require_same(source, "BRDF", fmt::format("\"{}\"", existing.brdf), fmt::format("\"{}\"", brdf),
-               existing.brdf == brdf);
+                        Storage storage) {
+  require_same(source, "BRDF", fmt::format("\"{}\"", existing.grid.model->name()),
+               fmt::format("\"{}\"", grid.model->name()), existing.grid.model == grid.model);
   require_same(source, "storage", fmt::format("\"{}\"", name_of(existing.storage)),
                fmt::format("\"{}\"", name_of(storage)), existing.storage == storage);
   const auto require_same_axis = [&](std::string_view what, const Axis& found, const Axis& expected,
@@ -105,7 +107,7 @@ std::vector<bool> lacking_entries(const Table& existing, const std::vector<bool>
 }
 
 Table extended(const Table& existing, const Table& additions) {
-  require_extendable(existing, "the table", additions.grid, additions.storage, additions.brdf);
+  require_extendable(existing, "the table", additions.grid, additions.storage);
   Table result = additions;
   bool adds = false;
   for (std::size_t flat = 0; flat < existing.status.size(); ++flat)

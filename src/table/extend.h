@@ -11,9 +11,9 @@
 namespace ltc {
 
 // Throws InputError, naming `source` (the table's file) and what differs, unless `existing` has the
-// grid, storage and BRDF given: entries of another would be of no use in one table.
+// grid (its BRDF too) and storage given: entries of another would be of no use in one table.
 void require_extendable(const Table& existing, std::string_view source, const Grid& grid,
-                        Storage storage, std::string_view brdf);
+                        Storage storage);
 
 // The entries that are needed and that `existing` skipped; what to fit. One that failed stays: it
 // would fail again.

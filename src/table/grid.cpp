@@ -81,6 +81,7 @@ Lobe Grid::lobe(const NodeIndex& node) const {
   lobe.alpha_y = std::max(layout == Layout::alphax_alphay ? second : second * larger, alpha_min);
   lobe.theta_radians = theta.nodes[node.theta];
   lobe.phi_radians = phi.nodes[node.phi];
+  lobe.model = model;
   return lobe;
 }
 

@@ -37,6 +37,7 @@ struct Grid {
   Layout layout = Layout::alpha_lambda;
   Axis alpha, lambda, theta, phi;
   double alpha_min = 1e-4;
+  const LobeModel* model = &ggx();  // of the lobes at its nodes
 
   // The paper's grid: alpha and lambda on [0, 1], theta on [0, 0.9999 pi/2], phi on [0, pi/2], all
   // linear with `nodes_per_axis` nodes.

@@ -16,18 +16,18 @@ double between(double first, double last, double uniform) {
 
 }  // namespace
 
-Lobe query_lobe(const QueryRange& range, const std::array<double, 4>& uniforms,
-                   double alpha_min) {
+Lobe query_lobe(const QueryRange& range, const std::array<double, 4>& uniforms, double alpha_min,
+                const LobeModel& model) {
   const double roughness = between(range.roughness_first, range.roughness_last, uniforms[0]);
   const double alpha = roughness * roughness;
   const double lambda = between(range.lambda_first, range.lambda_last, uniforms[1]);
   const double cos_theta = between(range.cos_theta_first, range.cos_theta_last, uniforms[2]);
   return {std::max(alpha, alpha_min), std::max(lambda * alpha, alpha_min), std::acos(cos_theta),
-          between(range.phi_first, range.phi_last, uniforms[3])};
+          between(range.phi_first, range.phi_last, uniforms[3]), &model};
 }
 
 std::vector<Lobe> random_queries(const QueryRange& range, std::size_t count, std::uint64_t seed,
-                                    double alpha_min) {
+                                 double alpha_min, const LobeModel& model) {
   Random random(seed);
   std::vector<Lobe> queries;
   queries.reserve(count);
@@ -35,7 +35,7 @@ std::vector<Lobe> random_queries(const QueryRange& range, std::size_t count, std
     std::array<double, 4> uniforms;
     for (double& uniform : uniforms)
       uniform = random.uniform();
-    queries.push_back(query_lobe(range, uniforms, alpha_min));
+    queries.push_back(query_lobe(range, uniforms, alpha_min, model));
   }
   return queries;
 }
@@ -56,11 +56,11 @@ std::vector<std::array<double, 4>> lattice_points(std::size_t first, std::size_t
 }
 
 std::vector<Lobe> lattice_queries(const QueryRange& range, std::size_t first, std::size_t count,
-                                     double alpha_min) {
+                                  double alpha_min, const LobeModel& model) {
   std::vector<Lobe> queries;
   queries.reserve(count);
   for (const std::array<double, 4>& point : lattice_points(first, count))
-    queries.push_back(query_lobe(range, point, alpha_min));
+    queries.push_back(query_lobe(range, point, alpha_min, model));
   return queries;
 }
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "brdf/ggx.h"
+#include "brdf/lobe.h"
 
 namespace ltc {
 
@@ -26,17 +26,17 @@ struct QueryRange {
 
 // The lobe at four uniform numbers in [0, 1), for roughness, lambda, cos(theta) and phi in this
 // order; each alpha is at least `alpha_min`.
-Lobe query_lobe(const QueryRange& range, const std::array<double, 4>& uniforms,
-                   double alpha_min);
+Lobe query_lobe(const QueryRange& range, const std::array<double, 4>& uniforms, double alpha_min,
+                const LobeModel& model = ggx());
 
 // `count` independent queries; the same seed gives the same ones.
 std::vector<Lobe> random_queries(const QueryRange& range, std::size_t count, std::uint64_t seed,
-                                    double alpha_min);
+                                 double alpha_min, const LobeModel& model = ggx());
 
 // Points first .. first + count - 1 of a low-discrepancy sequence in four dimensions, the additive
 // recurrence of Roberts' generalised golden ratio; and the queries there, for sums over many.
 std::vector<std::array<double, 4>> lattice_points(std::size_t first, std::size_t count);
 std::vector<Lobe> lattice_queries(const QueryRange& range, std::size_t first, std::size_t count,
-                                     double alpha_min);
+                                  double alpha_min, const LobeModel& model = ggx());
 
 }  // namespace ltc

@@ -41,7 +41,6 @@ inline bool has_values(Status status) {
 struct Table {
   Grid grid;
   Storage storage = Storage::matrix;
-  std::string brdf = "ggx";
   std::uint64_t seed = 0;
   std::string config;     // the full effective TOML
   std::string generator;  // program, version, commit

@@ -11,6 +11,8 @@
 #include <numbers>
 #include <vector>
 
+#include "brdf/ggx.h"
+
 namespace ltc {
 namespace {
 
@@ -37,7 +39,7 @@ Albedo reference(const Lobe& lobe) {
     for (int i = 0; i < azimuths; ++i) {
       // u = t^2 (3 - 2 t) crowds the points at both ends, where the integrand is steep.
       const double t = (j + 0.5) / heights;
-      const GgxSample sample =
+      const LobeSample sample =
           sampler.reflect(sampler.visible_normal(cosines[i], sines[i], t * t * (3 - 2 * t)));
       const double weight = 6 * t * (1 - t) * sample.weight;
       sum.amplitude += weight;
@@ -79,8 +81,7 @@ TEST(Albedo, ConvergesBelowTheBound) {
 
 TEST(Albedo, EqualsTheBrdfIntegratedOverTheHemisphere) {
   const AlbedoRule rule;
-  for (const Lobe& lobe :
-       {Lobe{1, 1, 0, 0}, Lobe{0.8, 0.4, 1.0, 0.6}, Lobe{0.5, 0.9, 0.5, 2.0}}) {
+  for (const Lobe& lobe : {Lobe{1, 1, 0, 0}, Lobe{0.8, 0.4, 1.0, 0.6}, Lobe{0.5, 0.9, 0.5, 2.0}}) {
     const GgxSampler sampler(lobe);
     Albedo expected;
     const int steps = 500;

@@ -45,6 +45,11 @@ std::vector<Lobe> lobes() {
   return lobes;
 }
 
+Eigen::Vector3d visible_normal(const GgxSampler& sampler, double u_azimuth, double u_height) {
+  return sampler.visible_normal(std::cos(2 * kPi * u_azimuth), std::sin(2 * kPi * u_azimuth),
+                                u_height);
+}
+
 Wide square(const Wide& x) {
   return x * x;
 }
@@ -110,7 +115,7 @@ TEST(GgxDigits, OffsetsFromTheMirrorDirection) {
   for (const Lobe& lobe : lobes()) {
     const GgxSampler sampler(lobe);
     for (const double u : {0.01, 0.3, 0.9}) {
-      const Eigen::Vector3d h = sampler.visible_normal(0.15, u);
+      const Eigen::Vector3d h = visible_normal(sampler, 0.15, u);
       if (h.z() < 0.1)
         continue;  // z follows from x and y well only away from the horizon
       const Eigen::Vector3d v = sampler.omega_v();
@@ -140,7 +145,7 @@ TEST(GgxDigits, DensityBesideTheMirrorDirection) {
     for (const double theta : {0.0, 0.3, 0.8, 1.2, 1.5}) {
       const Lobe lobe{alpha, alpha, theta, 0.4};
       const GgxSampler sampler(lobe);
-      const GgxSample sample = sampler.sample_visible(0.3, 0.6);
+      const LobeSample sample = sampler.sample(0.3, 0.6);
       const Eigen::Vector3d v = sampler.omega_v();
       // D of the half vector in its slopes, which is as printed in equation (4).
       const Wide hx = sample.offset.x(), hy = sample.offset.y();

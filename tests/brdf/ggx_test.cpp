@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
 // The GGX lobe against long double arithmetic, its identities and its own samplers.
-#include "brdf/ggx.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "brdf/ggx_lattice.h"
+#include "brdf/ggx.h"
 #include "statistics.h"
 
 namespace ltc {
@@ -32,6 +31,11 @@ std::vector<Lobe> hard_lobes() {
         for (const double phi : {0.0, 0.7, kPi / 2})
           lobes.push_back({alpha_x, alpha_y, theta, phi});
   return lobes;
+}
+
+Eigen::Vector3d visible_normal(const GgxSampler& sampler, double u_azimuth, double u_height) {
+  return sampler.visible_normal(std::cos(2 * kPi * u_azimuth), std::sin(2 * kPi * u_azimuth),
+                                u_height);
 }
 
 TEST(Ggx, ViewAlongAnAxisIsExactlySymmetric) {
@@ -106,7 +110,8 @@ TEST(Ggx, BrdfIsZeroBelowTheHorizon) {
   const GgxSampler sampler({0.5, 0.5, 1.0, 0.3});
   EXPECT_EQ(sampler.brdf_cosine(Eigen::Vector3d(0.6, 0, -0.8)), 0);
   EXPECT_EQ(sampler.brdf_cosine(Eigen::Vector3d(1, 0, 0)), 0);
-  EXPECT_GT(sampler.vndf_density(Eigen::Vector3d(-0.96, 0, -0.28)), 0);  // light is lost there
+  EXPECT_GT(sampler.densities(Eigen::Vector3d(-0.96, 0, -0.28)).sampling,
+            0);  // light is lost there
   EXPECT_EQ(sampler.brdf_cosine(-sampler.omega_v()), 0);
 }
 
@@ -138,7 +143,7 @@ TEST(Ggx, OffsetFromTheMirrorKeepsItsDigits) {
       // A slope whose z in long double makes the vector unit beyond double: the reference must not
       // suffer from the rounding of hz itself.
       const double u = uniform();
-      const Eigen::Vector3d h = sampler.visible_normal(uniform(), u);
+      const Eigen::Vector3d h = visible_normal(sampler, uniform(), u);
       Vector3l exact = h.cast<long double>();
       exact.z() = std::sqrt(1 - exact.x() * exact.x() - exact.y() * exact.y());
       if (exact.z() < 0.1L)
@@ -146,7 +151,7 @@ TEST(Ggx, OffsetFromTheMirrorKeepsItsDigits) {
       const Vector3l v = sampler.omega_v().cast<long double>();
       const Vector3l offset = 2 * v.dot(exact) * exact - v - Vector3l(-v.x(), -v.y(), v.z());
       const double width = static_cast<double>(offset.norm());
-      const GgxSample sample = sampler.reflect(h);
+      const LobeSample sample = sampler.reflect(h);
       // 1e-12 of the offset: a few roundings in double; 1e-19: the rounding of the reference.
       EXPECT_LT((sample.offset - offset.cast<double>()).norm(), 1e-12 * width + 1e-19);
     }
@@ -156,7 +161,7 @@ TEST(Ggx, OffsetFromTheMirrorKeepsItsDigits) {
 TEST(Ggx, PlainReflectionWouldLoseDigits) {
   // Shows that the bound of the test above is one that arithmetic in double does not meet.
   const GgxSampler sampler({1e-6, 1e-6, 1.2, 0.7});
-  const Eigen::Vector3d h = sampler.visible_normal(0.3, 0.4);
+  const Eigen::Vector3d h = visible_normal(sampler, 0.3, 0.4);
   const Eigen::Vector3d v = sampler.omega_v();
   const Eigen::Vector3d careless = 2 * v.dot(h) * h - v - sampler.mirror();
   const Eigen::Vector3d careful = sampler.reflect(h).offset;
@@ -165,19 +170,19 @@ TEST(Ggx, PlainReflectionWouldLoseDigits) {
 }
 
 TEST(Ggx, SamplesOfHardLobesAreFiniteUnitVectors) {
-  const VisibleNormalLattice lattice(256);
+  const SampleLattice lattice(256);
   WeightedSamples samples;
   for (const Lobe& lobe : hard_lobes()) {
     const GgxSampler sampler(lobe);
     for (const double u_azimuth : {0.0, 0.25, 0.9999999})
       for (const double u_height : {0.0, 1e-16, 0.5, 1 - 0x1p-53}) {
-        const GgxSample sample = sampler.sample_visible(u_azimuth, u_height);
+        const LobeSample sample = sampler.sample(u_azimuth, u_height);
         EXPECT_NEAR(sample.omega_l.norm(), 1, 1e-14);
         EXPECT_GE(sample.v_dot_h, 0);
         EXPECT_TRUE(sample.weight >= 0 && sample.weight <= 1);
         EXPECT_TRUE(std::isfinite(sampler.brdf_cosine_at_offset(sample.offset)));
       }
-    sample_weighted(lobe, lattice, samples);
+    GgxSampler(lobe).sample_all(lattice, samples);
     EXPECT_TRUE(samples.offset.allFinite());
     EXPECT_TRUE(samples.weight.allFinite());
     EXPECT_GT(samples.weight.sum(), 0);
@@ -190,8 +195,8 @@ TEST(Ggx, SamplesOfHardLobesAreFiniteUnitVectors) {
 TEST(Ggx, WeightIsBrdfOverDensity) {
   for (const Lobe& lobe : hard_lobes()) {
     const GgxSampler sampler(lobe);
-    const GgxSample sample = sampler.sample_visible(0.37, 0.41);
-    const double density = sampler.vndf_density_at_offset(sample.offset);
+    const LobeSample sample = sampler.sample(0.37, 0.41);
+    const double density = sampler.densities_at_offset(sample.offset).sampling;
     EXPECT_NEAR(sample.weight, sampler.brdf_cosine_at_offset(sample.offset) / density, 1e-12);
   }
 }
@@ -227,7 +232,7 @@ class SlopeHistogram {
         const Eigen::Vector3d h =
             Eigen::Vector3d(lobe_.alpha_x * r * std::cos(psi), lobe_.alpha_y * r * std::sin(psi), 1)
                 .normalized();
-        const GgxSample sample = sampler_.reflect(h);
+        const LobeSample sample = sampler_.reflect(h);
         if (sample.v_dot_h <= 0)
           continue;
         const double area = r / ((1 - t) * (1 - t)) * 2 * kPi / (radii * angles);
@@ -261,14 +266,14 @@ ChiSquared visible_normals_against(const Lobe& sampled, const Lobe& expected_lob
   const SlopeHistogram histogram(sampled);
   const GgxSampler sampler(sampled), expected_sampler(expected_lobe);
   std::vector<double> expected = histogram.integrate([&](const Eigen::Vector3d& offset) {
-    return expected_sampler.vndf_density_at_offset(offset);
+    return expected_sampler.densities_at_offset(offset).sampling;
   });
   scale(expected, kSamples);
   std::vector<double> observed(expected.size(), 0.0);
   Uniform uniform(1);
   for (std::size_t i = 0; i < kSamples; ++i) {
     const double u_azimuth = uniform();
-    observed[histogram.bin(sampler.sample_visible(u_azimuth, uniform()).offset)] += 1;
+    observed[histogram.bin(sampler.sample(u_azimuth, uniform()).offset)] += 1;
   }
   return test::chi_squared(observed, expected);
 }
@@ -324,9 +329,9 @@ ChiSquared lattice_against(const Lobe& sampled, const Lobe& expected_lobe) {
   });
   scale(expected, kSamples);
   std::vector<double> observed(expected.size(), 0.0);
-  const VisibleNormalLattice lattice(kSamples);
+  const SampleLattice lattice(kSamples);
   WeightedSamples samples;
-  sample_weighted(sampled, lattice, samples);
+  GgxSampler(sampled).sample_all(lattice, samples);
   for (Eigen::Index i = 0; i < samples.weight.size(); ++i)
     observed[histogram.bin(samples.offset.row(i).transpose())] += samples.weight[i];
   return test::chi_squared(observed, expected);

@@ -425,7 +425,7 @@ TEST(Kernels, SampleTargetAgreesWithTheSamplerInDouble) {
         const GgxSampler sampler(lobe);
         TargetSamples samples;
         sample_weighted_target(frame, lattice, samples);
-        std::vector<GgxSample> expected;
+        std::vector<LobeSample> expected;
         double mean_offset = 0;
         for (std::size_t i = 0; i < lattice.size(); ++i) {
           expected.push_back(sampler.reflect(sampler.visible_normal(

@@ -30,7 +30,7 @@ const TargetLattice& lattice() {
 
 L3Error error_of(const Lobe& lobe, const CosineSet& set = cosines(),
                  const TargetLattice& points = lattice()) {
-  return ggx_l3_error(lobe, integrate_albedo(lobe, AlbedoRule()).amplitude, points, set);
+  return lobe_l3_error(lobe, integrate_albedo(lobe, AlbedoRule()).amplitude, points, set);
 }
 
 // A lobe that is an LTC itself: the optimum is known, and its error is zero.

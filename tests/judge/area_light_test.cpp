@@ -100,9 +100,9 @@ TEST(AreaLight, TheStatedErrorOfTheSamplesIsTheirs) {
   coarse.set_lobe(kRough);
   // The coarse judge's quads by many samples: a judge draws from its own samples, so integrate
   // over them here.
-  const VisibleNormalLattice lattice(many.samples, 0.5, 0.5);
+  const SampleLattice lattice(many.samples, 0.5, 0.5);
   WeightedSamples samples;
-  sample_weighted(kRough, lattice, samples);
+  GgxSampler(kRough).sample_all(lattice, samples);
   double squares = 0;
   for (std::size_t quad = 0; quad < few.quads; ++quad) {
     double inside = 0;
@@ -193,7 +193,7 @@ TEST(AreaLight, ThePublishedTableErrsByTwoPercentOfTheLight) {
     const double alpha = root * root, lambda = random.uniform();
     const double theta = std::acos(random.uniform());
     const Lobe lobe{alpha, std::max(lambda * alpha, 1e-4), theta,
-                       std::numbers::pi / 2 * random.uniform()};
+                    std::numbers::pi / 2 * random.uniform()};
     judge.set_lobe(lobe, static_cast<std::uint64_t>(i));
     mean += judge.error(look_up(table, lobe).matrix).mean_absolute / queries;
   }

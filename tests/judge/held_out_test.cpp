@@ -25,7 +25,7 @@ PointSet target_in_double(const Lobe& lobe) {
   const GgxSampler sampler(lobe);
   PointSet set;
   for (std::size_t i = 0; i < lattice.size(); ++i) {
-    const GgxSample sample = sampler.reflect(
+    const LobeSample sample = sampler.reflect(
         sampler.visible_normal(lattice.cos_azimuth[i], lattice.sin_azimuth[i], lattice.height[i]));
     set.points.push_back(sample.omega_l);
     set.weights.push_back(sample.weight);

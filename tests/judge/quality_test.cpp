@@ -44,7 +44,7 @@ QualitySettings quick_settings() {
 
 const std::vector<QueryFloor>& quick_floors() {
   static const std::vector<QueryFloor> floors =
-      fit_queries(quick_settings(), small_table().grid.alpha_min, {2});
+      fit_queries(quick_settings(), small_table().grid, {2});
   return floors;
 }
 

@@ -57,7 +57,7 @@ TEST(SphereScene, PointsLieOnTheSphereInTheirFrames) {
       EXPECT_NEAR(point->to_tangent.determinant(), 1, 1e-14);
       EXPECT_GT(point->omega_v.z(), 0);
       EXPECT_EQ(point->to_tangent(0, 1), 0) << "east is level";
-      EXPECT_LT((point->lobe(0.1, 0.2).omega_v() - point->omega_v).norm(), 1e-14);
+      EXPECT_LT((point->lobe(0.1, 0.2, ggx()).omega_v() - point->omega_v).norm(), 1e-14);
     }
   EXPECT_GT(hits, 50);
 }

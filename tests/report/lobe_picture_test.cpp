@@ -45,7 +45,7 @@ double ggx_share(const Lobe& lobe, const LobeWindow& window) {
   double inside = 0, all = 0;
   for (int i = 0; i < 20000; ++i) {
     const double u = random.uniform();
-    const GgxSample sample = sampler.sample_visible(u, random.uniform());
+    const LobeSample sample = sampler.sample(u, random.uniform());
     all += sample.weight;
     inside += sample.weight * window.contains(sample.omega_l);
   }
@@ -77,13 +77,13 @@ TEST(LobePicture, ProjectionKeepsAnglesAndAreas) {
 
 TEST(LobePicture, DensitiesIntegrateToOneOverTheHemisphere) {
   // Lobes that a picture resolves, and ridges of a fiftieth of a pixel and less.
-  for (const Lobe& lobe :
-       {Lobe{1, 1, 0, 0}, Lobe{0.6, 0.4, 0.5, 0.3}, Lobe{0.43, 1e-4, 0.8, 0.9},
-        Lobe{0.43, 1e-4, 1.5, 0.9}, Lobe{1e-3, 1e-3, 0.8, 0.9}}) {
+  for (const Lobe& lobe : {Lobe{1, 1, 0, 0}, Lobe{0.6, 0.4, 0.5, 0.3}, Lobe{0.43, 1e-4, 0.8, 0.9},
+                           Lobe{0.43, 1e-4, 1.5, 0.9}, Lobe{1e-3, 1e-3, 0.8, 0.9}}) {
     const LobeWindow window = hemisphere_window();
     // Pixels at the rim count in full or not at all; at most 2 % of the pixels, where lobes are
     // dim. Within a pixel four points, or 2^20 samples: together 1 %.
-    EXPECT_NEAR(integral(ggx_density(lobe, window, side), window), 1, 0.02) << test::describe(lobe);
+    EXPECT_NEAR(integral(lobe_density(lobe, window, side), window), 1, 0.02)
+        << test::describe(lobe);
     const Eigen::Matrix3d matrix = first_order_matrix(lobe);
     // An LTC may lie below the horizon in part.
     EXPECT_NEAR(integral(ltc_density(matrix, lobe, window, side), window),
@@ -94,12 +94,12 @@ TEST(LobePicture, DensitiesIntegrateToOneOverTheHemisphere) {
 
 TEST(LobePicture, DensitiesOfAZoomedWindowIntegrateToItsShare) {
   for (const Lobe& lobe : {Lobe{0.05, 0.005, 1, 0.5}, Lobe{1e-4, 1e-4, 0.7, 0.3},
-                              Lobe{1e-6, 1e-6, 0.3, 1}, Lobe{0.02, 1e-6, 0.8, 0.5}}) {
+                           Lobe{1e-6, 1e-6, 0.3, 1}, Lobe{0.02, 1e-6, 0.8, 0.5}}) {
     const Eigen::Matrix3d matrix = first_order_matrix(lobe);
     const LobeWindow window = choose_window(lobe, matrix);
     ASSERT_FALSE(window.hemisphere) << test::describe(lobe);
     // 20,000 random samples: a standard error of 0.2 %; the picture's own error 1 %.
-    EXPECT_NEAR(integral(ggx_density(lobe, window, side), window), ggx_share(lobe, window), 0.02)
+    EXPECT_NEAR(integral(lobe_density(lobe, window, side), window), ggx_share(lobe, window), 0.02)
         << test::describe(lobe);
     EXPECT_NEAR(integral(ltc_density(matrix, lobe, window, side), window),
                 ltc_share(matrix, window), 0.02)
@@ -162,7 +162,7 @@ TEST(LobePicture, WindowFollowsAMisplacedLtc) {
 
 TEST(LobePicture, ScaleIsLogarithmicForSharpLobes) {
   const auto kind_of = [](const Lobe& lobe, const LobeWindow& window) {
-    const picture::Field ggx = ggx_density(lobe, window, side);
+    const picture::Field ggx = lobe_density(lobe, window, side);
     return density_scale(ggx, ggx).kind();
   };
   const LobeWindow hemisphere = hemisphere_window();

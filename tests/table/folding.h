@@ -14,15 +14,15 @@ namespace ltc::testing {
 // quadrants, then each with its roughnesses swapped.
 inline std::array<Lobe, 8> lobes_that_fold_to(const Lobe& node) {
   constexpr double pi = std::numbers::pi;
-  const auto [alpha, smaller, theta, phi] = node;
-  return {{{alpha, smaller, theta, phi},
-           {alpha, smaller, theta, pi - phi},
-           {alpha, smaller, theta, pi + phi},
-           {alpha, smaller, theta, 2 * pi - phi},
-           {smaller, alpha, theta, pi / 2 - phi},
-           {smaller, alpha, theta, pi / 2 + phi},
-           {smaller, alpha, theta, 3 * pi / 2 - phi},
-           {smaller, alpha, theta, 3 * pi / 2 + phi}}};
+  const auto [alpha, smaller, theta, phi, model] = node;
+  return {{{alpha, smaller, theta, phi, model},
+           {alpha, smaller, theta, pi - phi, model},
+           {alpha, smaller, theta, pi + phi, model},
+           {alpha, smaller, theta, 2 * pi - phi, model},
+           {smaller, alpha, theta, pi / 2 - phi, model},
+           {smaller, alpha, theta, pi / 2 + phi, model},
+           {smaller, alpha, theta, 3 * pi / 2 - phi, model},
+           {smaller, alpha, theta, 3 * pi / 2 + phi, model}}};
 }
 
 }  // namespace ltc::testing

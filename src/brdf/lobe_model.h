@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What the fit, the judges, the albedo and the renderer need to know of a BRDF. A model is one file
+// that implements this and one line in the list of lobe_model.cpp, or one call of add_lobe_model;
+// `brdf` in a config then chooses it.
+//
+// Tables rely on symmetries that every model must have: lobes are mirrored with the view in the
+// planes x = 0 and y = 0, and where alpha_x = alpha_y, they turn with it about z.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/albedo.h"
+#include "brdf/lattice.h"
+#include "brdf/lobe_sampler.h"
+
+namespace ltc {
+
+// Samples of a lobe as offsets from its mirror direction, in a frame whose z that is: what the
+// fit's kernels take.
+struct TargetSamples {
+  AlignedFloats gx, gy, gz, weight;
+  std::size_t size = 0;     // multiple of 16
+  bool heavy_tails = true;  // LobeModel::heavy_tails of the lobe
+
+  void reserve(std::size_t count);
+};
+
+class LobeModel {
+ public:
+  virtual ~LobeModel() = default;
+
+  // As configs and files have it.
+  virtual std::string_view name() const = 0;
+
+  virtual std::unique_ptr<LobeSampler> sampler(const Lobe& lobe) const = 0;
+
+  // The hot ones, by the sampler where a model has nothing faster: weighted samples on a lattice in
+  // the frame of `rotation` (its columns the frame's axes, the last one the mirror direction), and
+  // the integrals of albedo.h.
+  virtual void sample_target(const Lobe& lobe, const Eigen::Matrix3d& rotation,
+                             const TargetLattice& lattice, TargetSamples& samples) const;
+  virtual Albedo albedo(const Lobe& lobe, const AlbedoRule& rule) const;
+
+  // M diag(1/alpha_x, 1/alpha_y, 1) to first order in the slopes, up to a rotation about the mirror
+  // direction's axis: a clamped cosine's slopes sent to where microfacets of such slopes reflect.
+  virtual Eigen::Matrix3d first_order(const Lobe& lobe) const;
+  // Up to which larger roughness over the squared cosine of the view's elevation that matrix needs
+  // no fit; 0 where it always does.
+  virtual double exact_first_order() const { return 0; }
+
+  // Whether the lobe's slopes have tails without a variance, whose quantiles grow as tau^(-1/2)
+  // with the mass tau beyond them, as GGX has. Then sharp lobes are fitted with graded samples.
+  virtual bool heavy_tails() const { return false; }
+};
+
+// The one of this name. Throws InputError, naming those there are.
+const LobeModel& lobe_model(std::string_view name);
+const std::vector<const LobeModel*>& lobe_models();
+
+// For programs that bring a model of their own: it must live as long as the program does. Before
+// other threads ask for models.
+void add_lobe_model(const LobeModel& model);
+
+}  // namespace ltc
