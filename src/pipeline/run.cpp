@@ -107,6 +107,8 @@ void require_any_value(const Table& table) {
 
 void make_entries(const RunRequest& request, const Work& work, const RunContext& context,
                   FitJournal* journal, RunReport& report) {
+  if (request.announce)
+    request.announce(request.config, cost_of(request.config, work.to_fit, work.refinement()));
   report.table = generate_table(request.config, work.to_fit, context, &report.generate, journal,
                                 work.refinement());
   report.table.created = request.created;
@@ -197,8 +199,6 @@ RunReport make_table(const RunRequest& request, const RunContext& context) {
   const Clock::time_point began = Clock::now();
   const Work work = plan_work(request);
   require_memory(request.config, work.to_fit, work.refinement());
-  if (request.announce)
-    request.announce(request.config, cost_of(request.config, work.to_fit, work.refinement()));
   RunReport report;
   report.needed = count(work.needed);
   report.added = count(work.to_fit);

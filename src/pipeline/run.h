@@ -32,7 +32,7 @@ struct RunRequest {
   std::vector<std::filesystem::path> inputs = {};
   // Hears what a user should know and is no error, a line at a time. May be empty.
   std::function<void(const std::string& line)> warn = {};
-  // Hears what the run will cost, before it begins. May be empty.
+  // Hears what the run will cost, once nothing stands in its way. May be empty.
   std::function<void(const Config& config, const Cost& cost)> announce = {};
 };
 
