@@ -119,7 +119,7 @@ TEST(CheckpointRefused, OfOtherEntries) {
   std::vector<bool> fewer = all_needed;
   fewer[5] = false;
   write_checkpoint(config_with(), fewer, example(), folder / "c.h5");
-  expect_refused(folder, config_with(), all_needed, {"other entries", "--scene"});
+  expect_refused(folder, config_with(), all_needed, {"other entries", "its scene"});
   EXPECT_NO_THROW(read_checkpoint(config_with(), fewer, folder / "c.h5"));
 }
 
