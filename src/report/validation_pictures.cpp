@@ -100,20 +100,26 @@ std::vector<LobeToDraw> failing_entries(const Validation& validation, std::size_
   return lobes;
 }
 
-// A mean over each band, as a level line across it with its value on it.
-picture::Series levels(const char* name, const Bands& bands, double Band::*mean, int decimals,
+// A mean over each band, as a level line across it.
+picture::Series levels(const char* name, const Bands& bands, double Band::*mean,
                        picture::Color color, std::vector<double> dashes = {}) {
   picture::Series series{name, {}, color, picture::Marker::none, 4, std::move(dashes)};
   const double end = bands.unit.empty() ? 1 : 90;  // of a share, of an angle
   for (const Band& band : bands.bands) {
     const double last = std::min(band.last, std::max(end, band.first));
     series.points.push_back({band.first, band.*mean});
-    const bool known = std::isfinite(band.*mean);
-    series.points.push_back({(band.first + last) / 2, band.*mean,
-                             known ? fmt::format("{:.{}f}", band.*mean, decimals) : ""});
     series.points.push_back({last, band.*mean});
   }
   return series;
+}
+
+// The means in words: beside the lines, where table and floor are near each other, none could tell
+// which number is whose.
+std::string levels_text(const char* name, const Bands& bands, double Band::*mean, int decimals) {
+  std::string text = name;
+  for (const Band& band : bands.bands)
+    text += std::isfinite(band.*mean) ? fmt::format("  {:.{}f}", band.*mean, decimals) : "  –";
+  return text;
 }
 
 picture::Chart band_chart(const char* what, const Bands& bands, double Band::*table,
@@ -121,8 +127,10 @@ picture::Chart band_chart(const char* what, const Bands& bands, double Band::*ta
   picture::Chart chart;
   chart.words.title = fmt::format("{} by {}", what, bands.parameter);
   chart.x.title = bands.parameter + (bands.unit.empty() ? "" : fmt::format(" ({})", bands.unit));
-  chart.series = {levels("floor", bands, floor, decimals, picture::faint_ink, {12, 8}),
-                  levels("table", bands, table, decimals, picture::series_color(0))};
+  chart.series = {levels("floor", bands, floor, picture::faint_ink, {12, 8}),
+                  levels("table", bands, table, picture::series_color(0))};
+  chart.words.lines_below = {levels_text("table", bands, table, decimals),
+                             levels_text("floor", bands, floor, decimals)};
   double largest = 0;
   for (const picture::Series& series : chart.series)
     for (const picture::ChartPoint& point : series.points)

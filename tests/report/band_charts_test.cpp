@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "report/validation_pictures.h"
 
@@ -21,24 +23,24 @@ TEST(BandCharts, AMeanIsALevelLineAcrossItsBand) {
   EXPECT_EQ(charts[1].words.title, "Error under area lights by theta");
   EXPECT_EQ(charts[0].series[0].name, "floor");
   const picture::Series& table = charts[0].series[1];
-  ASSERT_EQ(table.points.size(), 6u);
+  ASSERT_EQ(table.points.size(), 4u);
   EXPECT_EQ(table.points[0].x, 0);
-  EXPECT_EQ(table.points[1].x, 15);
-  EXPECT_EQ(table.points[1].label, "0.100");
-  EXPECT_EQ(table.points[2].x, 30);
-  EXPECT_EQ(table.points[5].x, 90);  // where an open band of angles ends
-  EXPECT_EQ(table.points[5].y, 0.4);
+  EXPECT_EQ(table.points[1].x, 30);
+  EXPECT_EQ(table.points[1].y, 0.1);
+  EXPECT_EQ(table.points[3].x, 90);  // where an open band of angles ends
+  EXPECT_EQ(table.points[3].y, 0.4);
+  EXPECT_EQ(charts[0].words.lines_below,
+            (std::vector<std::string>{"table  0.100  0.400", "floor  0.050  0.200"}));
   EXPECT_EQ(charts[0].y.scale->first(), 0);
   EXPECT_GT(charts[0].y.scale->last(), 0.4);
 }
 
-TEST(BandCharts, WhatIsNoNumberHasNoLabel) {
+TEST(BandCharts, WhatIsNoNumberIsADash) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   QualityReport quality;
   quality.bands = {{"lambda", "", {{0, 0.5, 5, nan, 0.1, nan, nan}}}};
   const picture::Chart chart = band_charts(quality).at(0);
-  EXPECT_EQ(chart.series[1].points[1].label, "");
-  EXPECT_EQ(chart.series[0].points[1].label, "0.100");
+  EXPECT_EQ(chart.words.lines_below, (std::vector<std::string>{"table  –", "floor  0.100"}));
 }
 
 }  // namespace
