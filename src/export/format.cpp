@@ -25,6 +25,12 @@ TableFiles Format::files(const std::filesystem::path& prefix) const {
   return result;
 }
 
+std::string Format::why_not(const Grid& grid, Storage storage) const {
+  if (!without_axes && grid.layout != Layout::alpha_lambda)
+    return "is over alpha_x and alpha_y; expected alpha and lambda";
+  return limits ? limits(grid, storage) : "";
+}
+
 const std::list<Format>& formats() {
   return list();
 }

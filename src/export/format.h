@@ -51,9 +51,8 @@ struct Format {
               const WriteOptions& options) = nullptr;
 
   TableFiles files(const std::filesystem::path& prefix) const;
-  std::string why_not(const Grid& grid, Storage storage) const {
-    return limits ? limits(grid, storage) : "";
-  }
+  // The same for any format: one that names its axes calls them alpha and lambda.
+  std::string why_not(const Grid& grid, Storage storage) const;
   // Whether [output] asks for it, and whether it can hold the config's table too.
   bool is_asked(const OutputSettings& output) const { return asked && output.*asked; }
   bool is_written(const Config& config) const {

@@ -79,6 +79,19 @@ TEST(Format, AnAddedOneIsWrittenReadAndNamed) {
   EXPECT_THROW(read_table(folder / "t.cube"), InputError);
 }
 
+TEST(Format, ATableOverBothRoughnessesIsNotWrittenAsOneOverAlphaAndLambda) {
+  const test::TemporaryDirectory folder;
+  Table table = testing::synthetic_table(Grid::paper(3), Storage::matrix);
+  table.grid.layout = Layout::alphax_alphay;
+  for (const char* name : {"t.h5", "t.0.exr"}) {
+    test::expect_one_line(test::message_of<InputError>([&] { write_table(table, folder / name); }),
+                          {name, "alpha_x and alpha_y", "expected alpha and lambda"});
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+  }
+  write_table(table, folder / "t.npy");
+  EXPECT_EQ(read_table(folder / "t.npy", Layout::alphax_alphay).grid.layout, Layout::alphax_alphay);
+}
+
 TEST(Format, ThoseShippedSayWhatTheyHold) {
   EXPECT_EQ(endings_text(), ".h5, .0.exr or .npy");
   EXPECT_EQ(endings_text(keeps_fits), ".h5");
