@@ -19,8 +19,9 @@ void evaluate_model(benchmark::State& state) {
             4096);
   ModelValue value;
   for (auto _ : state) {
-    ltc::evaluate_model(sets.frame, sets.start, sets.cosines, sets.quantiles, 1,
-                        1e-2 * sets.quantiles.spread(), sets.model, value);
+    ltc::evaluate_model(
+        {sets.frame, sets.start, sets.cosines, sets.quantiles, 1, 1e-2 * sets.quantiles.spread()},
+        sets.model, value);
     benchmark::DoNotOptimize(value.loss);
   }
   state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(1));

@@ -107,9 +107,8 @@ Albedo AlbedoKernel(const AlbedoLobe& lobe, const AlbedoRule& rule) {
 
 // Offsets from the mirror direction (in the mirror's frame) and weights G2/G1 of the lattice's VNDF
 // samples, equation (6) importance sampled (Dupuy and Benyoub 2023); zero weight below the horizon.
-void SampleTargetKernel(const TargetParameters& parameters, const float* cos_azimuth,
-                        const float* sin_azimuth, const float* height, std::size_t count, float* gx,
-                        float* gy, float* gz, float* weights) {
+void SampleTargetKernel(const TargetParameters& parameters, const TargetLattice& lattice,
+                        TargetSamples& samples) {
   const hn::CappedTag<float, 16> d;
   using V = hn::Vec<decltype(d)>;
   const V one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), half = hn::Set(d, 0.5f);
@@ -131,16 +130,16 @@ void SampleTargetKernel(const TargetParameters& parameters, const float* cos_azi
   // 1 + Lambda(v) = (1 + |v stretched| / vz) / 2, equation (5).
   const V shadow_view = hn::Set(d, 0.5f * (1.0f + stretched_length / parameters.view_z));
   const float* q = parameters.rotation;
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < lattice.size(); i += hn::Lanes(d)) {
     // A point c of the spherical cap c_z in (-sz, 1]; the microfacet normal is c + s, unstretched.
     // At the rim, u near 1, both c_z + s_z and 1 + c_z are small: they are sums of terms of one
     // sign, so that the tail keeps its digits.
-    const V u = hn::Load(d, height + i);
+    const V u = hn::Load(d, lattice.height.data() + i);
     const V above_rim = hn::Mul(hn::Sub(one, u), rim_depth);  // c_z + s_z
     const V drop = hn::Mul(u, rim_depth);                     // 1 - c_z
     const V radius = hn::Sqrt(hn::Mul(drop, hn::Add(above_rim, one_less_sz)));
-    const V nx = hn::Mul(ax, hn::MulAdd(radius, hn::Load(d, cos_azimuth + i), sx));
-    const V ny = hn::Mul(ay, hn::MulAdd(radius, hn::Load(d, sin_azimuth + i), sy));
+    const V nx = hn::Mul(ax, hn::MulAdd(radius, hn::Load(d, lattice.cos_azimuth.data() + i), sx));
+    const V ny = hn::Mul(ay, hn::MulAdd(radius, hn::Load(d, lattice.sin_azimuth.data() + i), sy));
     const V nz = above_rim;
     const V lateral = hn::MulAdd(nx, nx, hn::Mul(ny, ny));
     const V length = hn::Sqrt(hn::MulAdd(nz, nz, lateral));
@@ -161,16 +160,16 @@ void SampleTargetKernel(const TargetParameters& parameters, const float* cos_azi
     const V numerator = hn::Mul(shadow_view, lz);
     const V denominator = hn::MulAdd(half, hn::Sub(stretched_light, lz), hn::Mul(shadow_view, lz));
     const V weight = hn::Div(numerator, denominator);
-    hn::Store(hn::IfThenElseZero(hn::Gt(lz, zero), weight), d, weights + i);
+    hn::Store(hn::IfThenElseZero(hn::Gt(lz, zero), weight), d, samples.weight.data() + i);
     hn::Store(hn::MulAdd(hn::Set(d, q[0]), ox,
                          hn::MulAdd(hn::Set(d, q[3]), oy, hn::Mul(hn::Set(d, q[6]), oz))),
-              d, gx + i);
+              d, samples.gx.data() + i);
     hn::Store(hn::MulAdd(hn::Set(d, q[1]), ox,
                          hn::MulAdd(hn::Set(d, q[4]), oy, hn::Mul(hn::Set(d, q[7]), oz))),
-              d, gy + i);
+              d, samples.gy.data() + i);
     // m . (l - m) = -|l - m|^2 / 2 for unit vectors.
     const V squared = hn::MulAdd(ox, ox, hn::MulAdd(oy, oy, hn::Mul(oz, oz)));
-    hn::Store(hn::Neg(hn::Mul(half, squared)), d, gz + i);
+    hn::Store(hn::Neg(hn::Mul(half, squared)), d, samples.gz.data() + i);
   }
 }
 
@@ -204,9 +203,7 @@ class GgxModel final : public LobeModel {
     for (int i = 0; i < 9; ++i)
       parameters.rotation[i] = static_cast<float>(rotation(i / 3, i % 3));
     HWY_DYNAMIC_DISPATCH(SampleTargetKernel)
-    (parameters, lattice.cos_azimuth.data(), lattice.sin_azimuth.data(), lattice.height.data(),
-     lattice.size(), samples.gx.data(), samples.gy.data(), samples.gz.data(),
-     samples.weight.data());
+    (parameters, lattice, samples);
   }
 
   Albedo albedo(const Lobe& lobe, const AlbedoRule& rule) const override {

@@ -153,7 +153,7 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
   best.frame_matrix = start / start.col(2).norm();
   ModelValue value, trial_value;
   double smoothing = smoothing_share * target.spread();
-  evaluate_model(frame, best.frame_matrix, cosines, target, options.direction_stride, smoothing,
+  evaluate_model({frame, best.frame_matrix, cosines, target, options.direction_stride, smoothing},
                  workspace, value);
   best.loss = value.loss;
   double objective = value.loss + add_prior(frame, target.spread(), best.frame_matrix,
@@ -173,8 +173,8 @@ Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const Fre
     bool accepted = trial.allFinite() && trial.determinant() > 0;
     double trial_objective = objective;
     if (accepted) {
-      evaluate_model(frame, trial, cosines, target, options.direction_stride, smoothing, workspace,
-                     trial_value);
+      evaluate_model({frame, trial, cosines, target, options.direction_stride, smoothing},
+                     workspace, trial_value);
       const double loss = trial_value.loss;
       trial_objective =
           loss + add_prior(frame, target.spread(), trial, options.prior_weight, trial_value);

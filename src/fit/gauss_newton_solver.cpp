@@ -236,9 +236,9 @@ class GaussNewtonSolver::Fit {
 
   double loss_on(const SampleLevel& level, const Eigen::Matrix3d& frame_matrix) {
     ModelValue value;
-    evaluate_model(frame_, frame_matrix, level.cosines, workspace_.quantiles,
-                   level.options.direction_stride, workspace_.quantiles.spread(), workspace_.model,
-                   value);
+    evaluate_model({frame_, frame_matrix, level.cosines, workspace_.quantiles,
+                    level.options.direction_stride, workspace_.quantiles.spread()},
+                   workspace_.model, value);
     return value.loss;
   }
   double coarse_loss(const Eigen::Matrix3d& start) { return loss_on(ladder_.coarse, start); }

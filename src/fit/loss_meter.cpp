@@ -19,7 +19,7 @@ double LossMeter::loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matr
   TargetQuantiles& quantiles = workspace.quantiles;
   quantiles.build(workspace.target, directions_, bins_, workspace.model.xi, workspace.model.bins);
   ModelValue value;
-  evaluate_model(frame, frame_matrix, cosines_, quantiles, 1, quantiles.spread(), workspace.model,
+  evaluate_model({frame, frame_matrix, cosines_, quantiles, 1, quantiles.spread()}, workspace.model,
                  value);
   return value.loss;
 }

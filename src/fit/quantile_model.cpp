@@ -289,14 +289,21 @@ void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, const Co
     count_with_multiplicity(cosines, maps.size(), bins, workspace);
 }
 
+// The samples' rows summed into the bins of one direction.
+struct DirectionBins {
+  const kernels::ProjectionMap& map;
+  const float* sums;
+  const std::int32_t* populations;
+  std::size_t bins, count;  // count of all samples
+};
+
 // Adds what one direction's bins say.
-void add_direction(const kernels::ProjectionMap& map, const kernels::TargetCells& cells,
-                   const float* sums, const std::int32_t* populations, std::size_t bins,
-                   std::size_t count, double smoothing, AlignedFloats& scratch, ModelValue& value) {
+void add_direction(const DirectionBins& of, const kernels::TargetCells& cells, double smoothing,
+                   AlignedFloats& scratch, ModelValue& value) {
   alignas(vector_alignment) float gradient[row_width] = {};
   alignas(vector_alignment) float hessian[9 * row_width] = {};
   kernels::DirectionSums result{gradient, hessian, 0};
-  kernels::reduce_direction(map, sums, populations, bins, count, cells,
+  kernels::reduce_direction(of.map, of.sums, of.populations, of.bins, of.count, cells,
                             static_cast<float>(smoothing), scratch.data(), result);
   // In double from direction to direction: the scale of P is a direction of zero curvature, and
   // only rounding may say otherwise.
@@ -310,17 +317,16 @@ void add_direction(const kernels::ProjectionMap& map, const kernels::TargetCells
 
 }  // namespace
 
-void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
-                    const CosineSet& cosines, const TargetQuantiles& target,
-                    std::size_t direction_stride, double smoothing, ModelWorkspace& workspace,
-                    ModelValue& value) {
+void evaluate_model(const ModelPoint& point, ModelWorkspace& workspace, ModelValue& value) {
+  const CosineSet& cosines = point.cosines;
+  const TargetQuantiles& target = point.target;
   const std::size_t count = cosines.size(), total = cosines.total(), bins = target.bin_count();
   workspace.reserve(count, bins);
   float p[9];
   for (int i = 0; i < 9; ++i)
-    p[i] = static_cast<float>(frame_matrix(i / 3, i % 3));
-  kernels::transform_samples(p, static_cast<float>(frame.lobe.alpha_x),
-                             static_cast<float>(frame.lobe.alpha_y), cosines.x.data(),
+    p[i] = static_cast<float>(point.frame_matrix(i / 3, i % 3));
+  kernels::transform_samples(p, static_cast<float>(point.frame.lobe.alpha_x),
+                             static_cast<float>(point.frame.lobe.alpha_y), cosines.x.data(),
                              cosines.y.data(), cosines.z.data(), count, workspace.gx.data(),
                              workspace.gy.data(), workspace.gz.data(), workspace.rows.data());
   multiply_rows(cosines, workspace.rows);
@@ -332,13 +338,13 @@ void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
   for (std::size_t k = 0; k < target.direction_count();) {
     const std::size_t first = k;
     std::size_t group = 0;
-    for (; group < directions_at_once && k < target.direction_count(); k += direction_stride)
+    for (; group < directions_at_once && k < target.direction_count(); k += point.direction_stride)
       maps[group++] = &target.map(k);
     sum_into_bins({maps.data(), group}, cosines, bins, workspace);
     for (std::size_t member = 0; member < group; ++member)
-      add_direction(*maps[member], target.cells(first + member * direction_stride),
-                    workspace.sums.data() + member * bins * row_width,
-                    workspace.populations.data() + member * bins, bins, total, smoothing,
+      add_direction({*maps[member], workspace.sums.data() + member * bins * row_width,
+                     workspace.populations.data() + member * bins, bins, total},
+                    target.cells(first + member * point.direction_stride), point.smoothing,
                     workspace.scratch, value);
     directions += group;
   }

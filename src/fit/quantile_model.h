@@ -138,11 +138,16 @@ struct ModelWorkspace {
   AlignedVector<std::int32_t> bins, populations;
 };
 
-// Evaluates the model at P along every `direction_stride`-th direction of the target. `smoothing`
-// is e above, in units of xi.
-void evaluate_model(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
-                    const CosineSet& cosines, const TargetQuantiles& target,
-                    std::size_t direction_stride, double smoothing, ModelWorkspace& workspace,
-                    ModelValue& value);
+// Where the model is evaluated: at P, with samples of the cosine, along every `direction_stride`-th
+// direction of the target. `smoothing` is e above, in units of xi.
+struct ModelPoint {
+  const LobeFrame& frame;
+  const Eigen::Matrix3d& frame_matrix;
+  const CosineSet& cosines;
+  const TargetQuantiles& target;
+  std::size_t direction_stride;
+  double smoothing;
+};
+void evaluate_model(const ModelPoint& point, ModelWorkspace& workspace, ModelValue& value);
 
 }  // namespace ltc

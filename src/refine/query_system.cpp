@@ -147,7 +147,7 @@ void QuerySystem::evaluate_query(const Query& query, const Eigen::Matrix3d& inte
   }
   ModelValue value;
   const double expected = model.loss > 0 ? model.loss / share : spread;
-  evaluate_model(frame, p, set.cosines, buffers.quantiles, 1, smoothing_share * expected,
+  evaluate_model({frame, p, set.cosines, buffers.quantiles, 1, smoothing_share * expected},
                  buffers.model, value);
   const Matrix9 to_frame = jacobian(map);
   model.loss = share * value.loss;

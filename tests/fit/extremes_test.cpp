@@ -230,9 +230,9 @@ class QuantileModelCheck {
   ModelErrors at(const Eigen::Matrix3d& p) {
     const CosineSet& cosines = cosine_set();
     ModelValue value;
-    evaluate_model(frame_, p, cosines, quantiles_, 1, quantiles_.spread(), workspace_, value);
+    evaluate_model({frame_, p, cosines, quantiles_, 1, quantiles_.spread()}, workspace_, value);
     const double smoothing = 0.05 * value.loss;
-    evaluate_model(frame_, p, cosines, quantiles_, 1, smoothing, workspace_, value);
+    evaluate_model({frame_, p, cosines, quantiles_, 1, smoothing}, workspace_, value);
     const ReferenceValue expected =
         reference_model(frame_, p, cosines, points_, quantiles_, smoothing);
     ModelErrors errors{std::abs(static_cast<double>((value.loss - expected.loss) /

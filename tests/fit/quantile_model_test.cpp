@@ -27,7 +27,7 @@ struct Model {
 
   ModelValue operator()(const Eigen::Matrix3d& p, double smoothing) {
     ModelValue value;
-    evaluate_model(frame, p, cosines, quantiles, 1, smoothing, workspace, value);
+    evaluate_model({frame, p, cosines, quantiles, 1, smoothing}, workspace, value);
     return value;
   }
 
@@ -113,7 +113,7 @@ TEST(QuantileModel, GradedBinsSeeTheTailsOfSharpLobes) {
     TargetQuantiles quantiles;
     ModelValue value;
     quantiles.build(samples, in_float(directions), bins, workspace.xi, workspace.bins, spacing);
-    evaluate_model(frame, p, cosines, quantiles, 1, 1e-5, workspace, value);
+    evaluate_model({frame, p, cosines, quantiles, 1, 1e-5}, workspace, value);
     return value.loss;
   };
   const Eigen::Vector3d roughness(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
@@ -210,7 +210,7 @@ TEST(QuantileModel, AWorkspaceRemembersNothing) {
   used(used.away_from_minimum(), 1e-3);
   const ModelValue expected = fresh(fresh.away_from_minimum(), 1e-3);
   ModelValue value;
-  evaluate_model(fresh.frame, fresh.away_from_minimum(), fresh.cosines, fresh.quantiles, 1, 1e-3,
+  evaluate_model({fresh.frame, fresh.away_from_minimum(), fresh.cosines, fresh.quantiles, 1, 1e-3},
                  used.workspace, value);
   EXPECT_EQ(value.loss, expected.loss);
   EXPECT_EQ(value.gradient, expected.gradient);
