@@ -16,8 +16,9 @@ using Json = nlohmann::ordered_json;
 std::string row_text(const char* what, const Statistics& d) {
   if (d.count == 0)
     return fmt::format("{:<36} {:>6}\n", what, 0);
-  return fmt::format("{:<36} {:>6} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}\n", what,
-                     d.count, d.mean, d.standard_error, d.p50, d.p95, d.p99, d.largest);
+  const std::string error = d.count > 1 ? fmt::format("{:.4f}", d.standard_error) : "";
+  return fmt::format("{:<36} {:>6} {:>8.4f} {:>8} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}\n", what,
+                     d.count, d.mean, error, d.p50, d.p95, d.p99, d.largest);
 }
 
 std::string noise_text(double noise) {

@@ -87,10 +87,7 @@ std::vector<BandedParameter> banded_parameters() {
        [](const Lobe& lobe) {
          return std::min(lobe.alpha_x, lobe.alpha_y) / std::max(lobe.alpha_x, lobe.alpha_y);
        }},
-      {"phi",
-       "°",
-       {0, 30, 60, end},
-       [=](const Lobe& lobe) { return degrees(lobe.phi_radians); }},
+      {"phi", "°", {0, 30, 60, end}, [=](const Lobe& lobe) { return degrees(lobe.phi_radians); }},
   };
 }
 
@@ -183,12 +180,18 @@ std::vector<ThresholdCheck> check_thresholds(const QualityReport& report,
       result.reason = "no limit is set";
     return result;
   };
+  // A few of many queries say nothing of the table, which serves another part of the range.
+  const auto mean_of_queries = [&](const Statistics& figures) {
+    constexpr std::size_t few = 20, least_share = 10;
+    const bool too_few = figures.count < few && figures.count * least_share < report.queries.size();
+    return too_few ? std::numeric_limits<double>::quiet_NaN() : figures.mean;
+  };
   return {check("quality.node_loss", "mean relative loss at nodes", report.nodes.mean,
                 thresholds.node_loss),
-          check("quality.query_loss", "mean relative loss between nodes", report.query_losses.mean,
-                thresholds.query_loss),
-          check("quality.area_light_error", "mean error under area lights", report.area_light.mean,
-                thresholds.area_light_error)};
+          check("quality.query_loss", "mean relative loss between nodes",
+                mean_of_queries(report.query_losses), thresholds.query_loss),
+          check("quality.area_light_error", "mean error under area lights",
+                mean_of_queries(report.area_light), thresholds.area_light_error)};
 }
 
 std::string verdict_text(const ThresholdCheck& check) {
@@ -199,8 +202,8 @@ std::string verdict_text(const ThresholdCheck& check) {
 std::string failure_line(const ThresholdCheck& check) {
   if (!check.judged())
     return fmt::format(
-        "{} is not judged, for there is nothing to judge, but {} = {:.4g} is demanded", check.what,
-        check.key, check.limit);
+        "{} is not judged, for there is too little to judge, but {} = {:.4g} is demanded",
+        check.what, check.key, check.limit);
   return fmt::format("{} is {:.4g}, above {} = {:.4g}", check.what, check.value, check.key,
                      check.limit);
 }

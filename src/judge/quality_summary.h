@@ -27,7 +27,7 @@ struct QualityThresholds {
 struct ThresholdCheck {
   std::string key;   // as in the settings' file
   std::string what;  // in words
-  double value = 0;  // NaN where nothing could be judged
+  double value = 0;  // NaN where nothing could be judged, or next to nothing
   double limit = 0;
   bool passed = true;  // what could not be judged fails only where it is demanded
   std::string reason;  // why no limit is set, in words, for whoever knows; empty where one is

@@ -94,6 +94,17 @@ TEST(QualityThresholds, NothingJudgedIsNothingPassed) {
   EXPECT_FALSE(std::signbit(report.area_light_noise)) << "printed as -nan";
 }
 
+TEST(QualityThresholds, AFewOfManyQueriesAreNotJudgedByALimit) {
+  QualityReport report = four_queries();
+  summarize_quality(report);
+  EXPECT_TRUE(check_thresholds(report, {1, 1, 1})[1].judged());  // few, but of few
+  report.queries.resize(200, {QueryState::outside, 0, {}, {}, 0});
+  const std::vector<ThresholdCheck> checks = check_thresholds(report, {1, 0, 0});
+  EXPECT_TRUE(checks[0].judged());
+  for (const std::size_t of_queries : {1, 2})
+    EXPECT_EQ(verdict_text(checks[of_queries]), "not judged");
+}
+
 TEST(QualityThresholds, WhatIsDemandedMustBeJudged) {
   QualityReport report;
   summarize_quality(report);
@@ -103,7 +114,7 @@ TEST(QualityThresholds, WhatIsDemandedMustBeJudged) {
   EXPECT_FALSE(checks[1].passed);
   EXPECT_EQ(verdict_text(checks[1]), "not judged");
   EXPECT_EQ(failure_line(checks[1]),
-            "mean relative loss between nodes is not judged, for there is nothing to judge, but "
+            "mean relative loss between nodes is not judged, for there is too little to judge, but "
             "quality.query_loss = 1 is demanded");
   report = four_queries();
   summarize_quality(report);
