@@ -134,6 +134,12 @@ void bench(const Arguments& arguments) {
   const std::optional<Table> published = table_of(arguments.published, arguments.layout);
   const std::optional<Table> reference = table_of(arguments.reference, arguments.layout);
 
+  if (reference && reference->refined == true)
+    warn(
+        fmt::format("{} is refined: its nodes serve what lies between them, and fits come nearer "
+                    "to their own lobes; a reference is made with refine.steps=0",
+                    arguments.reference));
+
   FrontierReport report;
   report.published_file = arguments.published;
   report.reference_file = arguments.reference;

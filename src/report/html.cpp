@@ -74,6 +74,8 @@ std::string verdict(Verdict verdict) {
       return "<span class=\"verdict passed\">✓ passed</span>";
     case Verdict::failed:
       return "<span class=\"verdict failed\">✗ failed</span>";
+    case Verdict::not_judged:
+      return "<span class=\"verdict unchecked\">– not judged</span>";
     case Verdict::not_checked:
       return "<span class=\"verdict unchecked\">– not checked</span>";
   }

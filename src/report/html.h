@@ -20,7 +20,7 @@ std::string figure(const picture::Canvas& picture, std::string_view text,
                    std::string_view caption = {});
 
 // Whether a check went well, as a word with a colour.
-enum class Verdict { passed, failed, not_checked };
+enum class Verdict { passed, failed, not_judged, not_checked };
 std::string verdict(Verdict verdict);
 
 // A table of cells that are HTML already, as is its head; on narrow screens its rows are lists.

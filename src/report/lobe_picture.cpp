@@ -91,8 +91,8 @@ std::string lobe_caption(const Lobe& lobe) {
                      lobe.phi_radians / radians_per_degree);
 }
 
-picture::PanelRow lobe_panels(const Lobe& lobe, const Eigen::Matrix3d& matrix,
-                              picture::Words words, std::size_t side) {
+picture::PanelRow lobe_panels(const Lobe& lobe, const Eigen::Matrix3d& matrix, picture::Words words,
+                              std::size_t side) {
   const LobeWindow window = choose_window(lobe, matrix);
   const Field ggx = lobe_density(lobe, window, side);
   const Field ltc = ltc_density(matrix, lobe, window, side);

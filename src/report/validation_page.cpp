@@ -32,15 +32,17 @@ std::string tile(const std::string& value, std::string_view what, std::string_vi
 }
 
 html::Verdict verdict_of(const InvariantResult& result) {
-  return !result.passed                      ? html::Verdict::failed
-         : !result.checked || !result.judged ? html::Verdict::not_checked
-                                             : html::Verdict::passed;
+  return !result.passed    ? html::Verdict::failed
+         : !result.checked ? html::Verdict::not_checked
+         : !result.judged  ? html::Verdict::not_judged
+                           : html::Verdict::passed;
 }
 
 html::Verdict verdict_of(const ThresholdCheck& check) {
   return !check.passed         ? html::Verdict::failed
          : check.has_verdict() ? html::Verdict::passed
-                               : html::Verdict::not_checked;
+         : check.judged()      ? html::Verdict::not_checked
+                               : html::Verdict::not_judged;
 }
 
 std::string sentence(const Validation& validation) {

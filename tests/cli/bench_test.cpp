@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "export/table_file.h"
 #include "picture/png.h"
 #include "support/program.h"
+#include "table/synthetic.h"
 
 namespace ltc::test {
 namespace {
@@ -76,6 +78,21 @@ TEST(Bench, SaysHowSgdWasExtrapolated) {
   for (const char* part : {"extrapolated from 8 timed steps of 10000", "no error without",
                            "times faster per entry than sgd-published"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part << " is not in:\n" << result.out;
+}
+
+TEST(Bench, WarnsOfAReferenceThatIsRefined) {
+  const test::TemporaryDirectory folder;
+  Table table = testing::synthetic_table(Grid::paper(8), Storage::matrix);
+  for (const bool refined : {true, false}) {
+    table.refined = refined;
+    write_table(table, folder / "r.h5");
+    const ProgramResult result =
+        run_ltcfit({"bench", "--entries", "1", "--samples", "512", "--directions", "8",
+                    "--settings", "gn-256x16", "--reference", "r.h5"},
+                   folder.path());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err.find("r.h5 is refined") != std::string::npos, refined) << result.err;
+  }
 }
 
 TEST(Bench, RefusesBadInputInOneLine) {
