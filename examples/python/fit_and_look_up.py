@@ -14,7 +14,7 @@ import numpy as np
 fit = ltcfit.fit(alpha_x=0.4, alpha_y=0.1, theta=1.0, phi=0.5)
 print(f"fitted: {fit.loss / fit.spread:.4f} of the lobe's spread from GGX, amplitude {fit.amplitude:.4f}")
 
-nodes = {"table.alpha.nodes": 4, "table.lambda.nodes": 3, "table.theta.nodes": 4, "table.phi.nodes": 3}
+nodes = {"table.alpha.first": 0.1, "table.alpha.nodes": 4, "table.lambda.nodes": 3, "table.theta.nodes": 4, "table.phi.nodes": 3}
 with tempfile.TemporaryDirectory() as folder:
     file = Path(folder) / "table.h5"
     ltcfit.generate(set=nodes | {"refine.steps": 2}).write(file)
