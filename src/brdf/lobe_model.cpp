@@ -78,7 +78,7 @@ Eigen::Matrix3d LobeModel::first_order(const Lobe& lobe) const {
   Eigen::Matrix3d matrix;
   matrix.col(0) << 2 * v.z(), 0, 2 * v.x();
   matrix.col(1) << 0, 2 * v.z(), 2 * v.y();
-  matrix.col(2) << -v.x(), -v.y(), v.z();
+  matrix.col(2) = lobe.mirror();
   return matrix;
 }
 

@@ -89,7 +89,7 @@ bool names_parameters(const Arguments& arguments) {
 // What the stress runs go down to.
 constexpr double least_alpha = 1e-12;
 
-Lobe parse_lobe(const Arguments& arguments) {
+Lobe parse_lobe(const Arguments& arguments, const LobeModel& model) {
   const std::array<std::pair<const char*, bool>, 3> parameters = {
       {{"--alpha-x and --alpha-y, or --roughness,", arguments.roughness.any()},
        {"--theta", arguments.theta_degrees.has_value()},
@@ -102,7 +102,7 @@ Lobe parse_lobe(const Arguments& arguments) {
                       option));
   const LobeRoughness roughness = roughness_of(arguments.roughness, least_alpha);
   return {roughness.alpha_x, roughness.alpha_y, radians_of_degrees(*arguments.theta_degrees),
-          radians_of_degrees(*arguments.phi_degrees)};
+          radians_of_degrees(*arguments.phi_degrees), &model};
 }
 
 // The nine numbers of --start matrix=…, M by rows. Any numbers: solvers have to cope.
@@ -179,8 +179,7 @@ FitReport run_fit(const Arguments& arguments, const Config& config, const RunCon
   Lobe lobe;
   std::size_t seed_index = 0;
   if (arguments.entry.empty()) {
-    lobe = parse_lobe(arguments);
-    lobe.model = config.grid.model;
+    lobe = parse_lobe(arguments, *config.grid.model);
   } else {
     report.entry = parse_entry(arguments.entry, config.grid);
     lobe = config.grid.lobe(*report.entry);
@@ -237,8 +236,7 @@ void show_as_in(const Arguments& arguments, const RunContext& run) {
     }
   };
   if (arguments.entry.empty()) {
-    Lobe lobe = parse_lobe(arguments);
-    lobe.model = report.table.grid.model;
+    const Lobe lobe = parse_lobe(arguments, *report.table.grid.model);
     report.lobe = named([&] { return stored_query(report.table, lobe, run); });
   } else {
     const std::size_t entry = parse_entry(arguments.entry, report.table.grid);

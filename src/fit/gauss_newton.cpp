@@ -7,8 +7,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+
+#include "core/stopwatch.h"
 
 namespace ltc {
 namespace {
@@ -23,10 +24,6 @@ constexpr double prior_spread = 1.5e-3;
 // Smoothing e of the reweighting, as a share of the loss: below it a residual counts as zero.
 // With five times as much some fits ended a twentieth above the least loss.
 constexpr double smoothing_share = 0.01;
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 // Of the squared entries of column c of P - P0; see prior_spread.
 double prior_strength(const LobeFrame& frame, double spread, int column, double weight) {

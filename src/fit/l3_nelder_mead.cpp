@@ -3,11 +3,11 @@
 #include "fit/l3_nelder_mead.h"
 
 #include <Eigen/LU>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <nlopt.hpp>
 
+#include "core/stopwatch.h"
 #include "fit/starting_points.h"
 
 namespace ltc {
@@ -51,7 +51,7 @@ struct Objective {
   const Progress* progress;
   std::vector<FitStep>* trace;
   nlopt::opt& optimiser;
-  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  Clock::time_point begin = Clock::now();
   std::vector<double> best = {};
   double best_error = std::numeric_limits<double>::infinity();
   int evaluations = 0;
@@ -67,10 +67,7 @@ struct Objective {
     }
     ++evaluations;
     if (trace)
-      trace->push_back(
-          {value, 0, 0,
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-           better});
+      trace->push_back({value, 0, 0, seconds_since(begin), better});
     return value;
   }
 };

@@ -6,7 +6,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,6 +13,7 @@
 #include "brdf/lobe_model.h"
 #include "core/ordered_float.h"
 #include "core/random.h"
+#include "core/stopwatch.h"
 #include "fit/starting_points.h"
 #include "fit/workspace.h"
 
@@ -79,7 +79,7 @@ class Descender {
   }
 
   FitResult run(const std::vector<Eigen::Matrix3d>& starts, std::vector<FitStep>* trace) {
-    const auto begin = std::chrono::steady_clock::now();
+    const Clock::time_point begin = Clock::now();
     const double width = std::max(frame_.lobe.alpha_x, frame_.lobe.alpha_y);
     const Variables variables{settings_.scaled_variables, width, frame_};
     const Eigen::Matrix3d start = starts.empty() ? own_start() : starts.front();
@@ -105,10 +105,7 @@ class Descender {
       if (usable)
         w = next;
       if (trace)
-        trace->push_back(
-            {loss, gradient.norm(), step_size,
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-             usable});
+        trace->push_back({loss, gradient.norm(), step_size, seconds_since(begin), usable});
       step_size *= settings_.step_decay;
       ++result.steps;
       if (usable && step >= settings_.steps - settings_.averaged_steps) {

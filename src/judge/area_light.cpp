@@ -114,10 +114,6 @@ double weight_inside(const WeightedSamples& samples, const AreaLightJudge::Quad&
   return inside;
 }
 
-bool invertible(const Eigen::Matrix3d& matrix) {
-  return matrix.allFinite() && matrix.inverse().allFinite() && matrix.determinant() != 0;
-}
-
 }  // namespace
 
 AreaLightJudge::AreaLightJudge(const AreaLightSettings& settings)
@@ -170,7 +166,7 @@ AreaLightError AreaLightJudge::error(const Eigen::Matrix3d& matrix,
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   AreaLightError error{nan, nan, standard_error_};
   const double relative_amplitude = amplitude ? *amplitude / amplitude_ : 1.0;
-  if (!invertible(matrix) || !std::isfinite(relative_amplitude))
+  if (!is_invertible(matrix) || !std::isfinite(relative_amplitude))
     return error;
   const LinearlyTransformed cosine(matrix);
   error.mean_absolute = error.largest = 0;

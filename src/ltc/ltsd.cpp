@@ -78,6 +78,10 @@ Eigen::Vector3d sample_original(Original original, double u_height, double u_azi
   return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
 }
 
+bool is_invertible(const Eigen::Matrix3d& matrix) {
+  return matrix.allFinite() && matrix.determinant() != 0 && matrix.inverse().allFinite();
+}
+
 LinearlyTransformed::LinearlyTransformed(const Eigen::Matrix3d& matrix, Original original)
     : matrix_(matrix),
       inverse_(matrix.inverse()),

@@ -24,6 +24,9 @@ double original_density(Original original, const Eigen::Vector3d& omega_o);
 // A unit direction from two uniforms on [0, 1).
 Eigen::Vector3d sample_original(Original original, double u_height, double u_azimuth);
 
+// Whether a matrix is finite and has a finite inverse: what a distribution can be made of.
+bool is_invertible(const Eigen::Matrix3d& matrix);
+
 // The distribution of M omega_o/|M omega_o|. M is known up to a factor; a negative determinant is a
 // mirrored transformation and as good as any.
 class LinearlyTransformed {

@@ -107,17 +107,7 @@ Eigen::Matrix3d starting_matrix(StartKind kind, const Lobe& lobe, std::uint64_t 
   const LobeFrame frame(lobe);
   TargetSamples target;
   sample_weighted_target(frame, make_target_lattice(4096, 0.3), target);
-  switch (kind) {
-    case StartKind::first_order:
-      return frame.to_matrix(first_order_start(frame));
-    case StartKind::moments:
-      return frame.to_matrix(moment_start(frame, target));
-    case StartKind::identity:
-      return frame.to_matrix(identity_start(frame));
-    case StartKind::random:
-      return frame.to_matrix(random_start(frame, target, seed));
-  }
-  throw InputError("unknown starting point");
+  return frame.to_matrix(start_of_kind(kind, frame, target, seed));
 }
 
 GradientCheck check_lobe_gradient(const Lobe& lobe, const Eigen::Matrix3d& matrix) {

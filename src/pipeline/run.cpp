@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <optional>
 
 #include "core/error.h"
 #include "core/platform.h"
+#include "core/stopwatch.h"
 #include "core/uninterrupted.h"
 #include "export/table_file.h"
 #include "judge/half_precision.h"
@@ -23,11 +23,6 @@ namespace ltc {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 // What a scene and an existing table leave to do.
 struct Work {

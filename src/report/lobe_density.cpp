@@ -221,10 +221,6 @@ std::vector<WeightedPoint> ltc_points(const LinearlyTransformed& ltc, const Lobe
   return points;
 }
 
-bool is_drawable(const Eigen::Matrix3d& matrix) {
-  return matrix.allFinite() && matrix.determinant() != 0 && matrix.inverse().allFinite();
-}
-
 }  // namespace
 
 Eigen::Vector2d LobeWindow::project(const Eigen::Vector3d& omega) const {
@@ -248,7 +244,7 @@ LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix) {
   LobeWindow window{LobeFrame(lobe).rotation, 0, 0, 0, false};
   Bounds bounds;
   bounds.include_bulk(lobe_points(*lobe.model->sampler(lobe), window));
-  if (is_drawable(matrix))
+  if (is_invertible(matrix))
     bounds.include_bulk(ltc_points(LinearlyTransformed(matrix), window));
   const Eigen::Vector2d center = (bounds.low + bounds.high) / 2;
   window.center_x = center.x();
@@ -272,7 +268,7 @@ Field lobe_density(const Lobe& lobe, const LobeWindow& window, std::size_t side)
 
 Field ltc_density(const Eigen::Matrix3d& matrix, const Lobe& lobe, const LobeWindow& window,
                   std::size_t side) {
-  if (!is_drawable(matrix))
+  if (!is_invertible(matrix))
     return {side, side, std::vector<float>(side * side, no_value)};
   const LinearlyTransformed ltc(matrix);
   const Eigen::Vector3d mirror = lobe.mirror();

@@ -4,23 +4,17 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "fit/fit_table.h"
 #include "stress/graded_judge.h"
 
 namespace ltc {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 // What a thread keeps.
 struct Worker {
