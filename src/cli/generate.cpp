@@ -57,8 +57,8 @@ RunRequest request_of(const Arguments& arguments, Files& files) {
 
 // A refined entry is no fit any more, and one that was taken over is of another run: then the file
 // alone tells what it holds.
-EntryCommands commands_of(const Arguments& arguments, const RunReport& report) {
-  EntryCommands commands;
+SummaryCommands commands_of(const Arguments& arguments, const RunReport& report) {
+  SummaryCommands commands;
   const bool refined = report.generate.refine && report.generate.refine->kept;
   if (!report.extends) {
     commands.fit = "ltcfit fit" + arguments.config.as_text();
@@ -90,7 +90,7 @@ void generate(const Arguments& arguments, Files& files) {
   const RunRequest request = request_of(arguments, files);
   stop_on_interrupt.set_checkpoint(files_of_run(request.config, request.folder).checkpoint);
   const RunReport report = make_table(request, {arguments.threads, &progress});
-  const EntryCommands commands = commands_of(arguments, report);
+  const SummaryCommands commands = commands_of(arguments, report);
   print_results(
       arguments.json, [&] { return summary_text(report, commands); },
       [&] { return summary_json(report); });

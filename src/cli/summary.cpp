@@ -96,7 +96,7 @@ std::string refine_text(const GenerateReport& made) {
 }
 
 std::string worst_text(const Table& table, const TableSummary& summary,
-                       const EntryCommands& commands) {
+                       const SummaryCommands& commands) {
   std::string text;
   const auto add = [&](const char* what, const std::string& command, std::size_t flat) {
     if (!command.empty())
@@ -114,7 +114,7 @@ std::string worst_text(const Table& table, const TableSummary& summary,
 
 }  // namespace
 
-std::string summary_text(const RunReport& report, const EntryCommands& commands) {
+std::string summary_text(const RunReport& report, const SummaryCommands& commands) {
   const Table& table = report.table;
   const TableSummary summary = summarize(table, worst_count);
   std::string text = time_text(report);

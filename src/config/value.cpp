@@ -35,7 +35,7 @@ std::string toml_of(const Value& value) {
         else if constexpr (std::is_same_v<T, double>)
           return number(v);
         else if constexpr (std::is_same_v<T, std::string>)
-          return quoted(v);
+          return config::quoted(v);
         else
           return fmt::format("{}", v);
       },
