@@ -32,6 +32,12 @@ void check_together(const Draft& draft, const config::Sources& sources) {
   check_axis("table.lambda", "", draft.lambda, sources);
   check_axis("table.theta", "_degrees", draft.theta_degrees, sources);
   check_axis("table.phi", "_degrees", draft.phi_degrees, sources);
+  if (draft.config.storage == Storage::inverse && !is_isotropic(config::config_of(draft).grid))
+    throw InputError(fmt::format(
+        "{}: table.storage = \"inverse\" with other nodes than lambda = 1 and phi = 0; expected one "
+        "node of each: inverses of other lobes do not interpolate",
+        config::latest_source(sources, {"table.storage", "table.lambda.first", "table.lambda.nodes",
+                                        "table.phi.first_degrees", "table.phi.nodes"})));
   const OutputSettings& output = draft.config.output;
   if (!output.hdf5 && !output.exr && !output.npy)
     throw InputError(fmt::format(

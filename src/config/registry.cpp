@@ -25,7 +25,7 @@ std::vector<Key> axis_keys(std::string section, Member axis, std::string_view un
           "number of nodes; one node stands at the first value"),
       key(
           section + "warp", [=](Draft& d) { return &axis(d)->warp; },
-          "where the nodes are dense: linear nowhere, sqrt near first, complement-sqrt near last"),
+          "where the nodes are dense: linear nowhere, sqrt near first, complement-sqrt near last, half-sine as engines have theta"),
   };
 }
 
@@ -42,7 +42,7 @@ std::vector<Key> table_keys() {
   const auto add = [&](const std::vector<Key>& more) { all.insert(all.end(), more.begin(), more.end()); };
   add(axis_keys("alpha", [](Draft& d) { return &d.alpha; }, "", {0, 1}));
   add(axis_keys("lambda", [](Draft& d) { return &d.lambda; }, "", {0, 1}));
-  add(axis_keys("theta", [](Draft& d) { return &d.theta_degrees; }, "_degrees", below(0, 90)));
+  add(axis_keys("theta", [](Draft& d) { return &d.theta_degrees; }, "_degrees", {0, 90}));
   add(axis_keys("phi", [](Draft& d) { return &d.phi_degrees; }, "_degrees", {0, 90}));
   return all;
 }

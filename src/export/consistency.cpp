@@ -80,6 +80,8 @@ void require_shapes(const Table& table, const std::filesystem::path& file) {
 
 void require_consistent(const Table& table, const std::filesystem::path& file) {
   require_shapes(table, file);
+  if (table.storage == Storage::inverse && !is_isotropic(table.grid))
+    refuse(file, "storage is inverse, yet lambda = 1 and phi = 0 are not its only nodes");
   for (std::size_t i = 0; i < table.grid.size(); ++i) {
     const auto first = table.stored.begin() + static_cast<std::ptrdiff_t>(9 * i);
     if (has_values(table.status[i]) &&

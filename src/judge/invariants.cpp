@@ -170,10 +170,12 @@ class Checks {
                   [&](std::size_t flat) { return difference_to_first_phi(upward, flat); });
   }
 
-  InvariantResult third_column() const {
-    return judged("third column", limits_.unit_length, finite_, [&](std::size_t flat) {
-      return std::abs(table_.stored_at(flat).col(2).norm() - 1);
-    });
+  InvariantResult unit_scale() const {
+    const bool inverse = table_.storage == Storage::inverse;
+    return judged(inverse ? "middle entry" : "third column", limits_.unit_length, finite_,
+                  [&](std::size_t flat) {
+                    return std::abs(scale_of(table_.storage, table_.stored_at(flat)) - 1);
+                  });
   }
 
   InvariantResult alignment() const {
@@ -339,7 +341,7 @@ std::vector<InvariantResult> check_invariants(const Table& table, const Invarian
           checks.condition(),
           checks.zeros(),
           checks.upward(),
-          checks.third_column(),
+          checks.unit_scale(),
           checks.alignment(),
           checks.half_precision(),
           checks.inverse(),

@@ -87,6 +87,8 @@ Eigen::Matrix3d seen_in(Storage storage, const Eigen::Matrix3d& stored, const Lo
   const bool scaled = storage != Storage::matrix, turned = storage == Storage::mirror_frame;
   const bool factored = order == InverseOrder::factored;
   Matrix3<Scalar> m = rounded<Scalar>(stored);
+  if (storage == Storage::inverse)  // the shader takes it as it is
+    return inverse_of(in_double<Scalar>(m));
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) {
       if (scaled && !factored)

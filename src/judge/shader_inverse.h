@@ -37,7 +37,7 @@ constexpr EnumNames<InverseOrder, 3> enum_names(InverseOrder) {
 
 // The matrix whose inverse in all digits is what a shader has: M but for what storing S, forming M
 // and inverting it lose. `stored` is rounded to `memory` first; all that follows is in
-// `arithmetic`. NaN where the shader has no inverse: an entry that overflows, a determinant of
+// `arithmetic`; with storage "inverse" nothing does. NaN where the shader has no inverse: an entry that overflows, a determinant of
 // zero, or a sign of the determinant that rounding turned, which puts the lobe's mirror image at
 // the opposite side. With `factored` and storage "matrix", S is put into the mirror's frame in
 // `arithmetic`.

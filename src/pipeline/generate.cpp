@@ -115,7 +115,7 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
     return report;
   for (std::size_t flat = 0; flat < count; ++flat)
     if (movable[flat])
-      table.set_stored(flat, normalise(stored[flat]));
+      table.set_stored(flat, normalise(table.storage, stored[flat]));
   for (std::size_t flat = 0; flat < count; ++flat)
     stored[flat] = table.stored_at(flat);
   const std::vector<double> losses = node_losses({table.grid, table.storage, movable}, stored, run);

@@ -11,7 +11,7 @@ PostProcessed post_process(const Lobe& lobe, Storage storage, const Eigen::Matri
   Eigen::Matrix3d matrix = aligned;
   PostProcessed result;
   result.zeroed = enforce_symmetry(lobe.theta_radians, lobe.phi_radians, matrix);
-  result.stored = normalise(stored_from_matrix(storage, matrix, lobe));
+  result.stored = normalise(storage, stored_from_matrix(storage, matrix, lobe));
   return result;
 }
 

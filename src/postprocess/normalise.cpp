@@ -44,14 +44,15 @@ Eigen::Matrix3d towards_larger_determinant(const Eigen::Matrix3d& matrix, int st
 
 }  // namespace
 
-Eigen::Matrix3d normalise(const Eigen::Matrix3d& matrix) {
-  const double length = matrix.col(2).norm();
-  if (!matrix.allFinite() || !(length > 0) || !(matrix.determinant() > 0))
+Eigen::Matrix3d normalise(Storage storage, const Eigen::Matrix3d& matrix) {
+  const double scale = scale_of(storage, matrix);
+  if (!matrix.allFinite() || !(scale > 0) || !(matrix.determinant() > 0))
     throw InputError(
-        fmt::format("matrix to be stored has determinant {} and a third column of length {}: it "
-                    "must be finite, and both must be positive",
-                    matrix.determinant(), length));
-  const Eigen::Matrix3d rounded = round_to_float(matrix / length);
+        fmt::format("matrix to be stored has determinant {} and a {} of {}: it must be finite, and "
+                    "both must be positive",
+                    matrix.determinant(),
+                    storage == Storage::inverse ? "middle entry" : "third column of length", scale));
+  const Eigen::Matrix3d rounded = round_to_float(matrix / scale);
   for (int steps = 0; steps <= kMostSteps; ++steps) {
     const Eigen::Matrix3d candidate = towards_larger_determinant(rounded, steps);
     if (candidate.determinant() > 0)

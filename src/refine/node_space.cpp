@@ -39,7 +39,8 @@ std::size_t swapped_azimuth(const Axis& phi, std::size_t index) {
 
 }  // namespace
 
-NodeSpace::NodeSpace(const Grid& grid, const std::vector<bool>& movable) {
+NodeSpace::NodeSpace(const Grid& grid, Storage storage, const std::vector<bool>& movable)
+    : storage_(storage) {
   free_.resize(grid.size());
   std::vector<bool> frozen(grid.size());
   for (std::size_t flat = 0; flat < grid.size(); ++flat)
@@ -67,6 +68,15 @@ NodeSpace::NodeSpace(const Grid& grid, const std::vector<bool>& movable) {
   }
   for (std::size_t flat = 0; flat < grid.size(); ++flat)
     free_[flat] = frozen[flat] ? FreeEntries{} : free_entries(grid.lobe(flat));
+  if (storage != Storage::inverse)
+    return;
+  // The middle entry is 1, and so is the first of an upward view, which is the same with x and y
+  // swapped.
+  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    free_[flat][4] = false;
+    if (looks_upward(grid.theta.nodes[grid.node(flat).theta]))
+      free_[flat][0] = false;
+  }
 }
 
 void NodeSpace::average_orbits(NodeVectors& values) const {
@@ -86,6 +96,8 @@ void NodeSpace::project(const std::vector<Eigen::Matrix3d>& stored, NodeVectors&
     for (int entry = 0; entry < 9; ++entry)
       if (!free_[flat][entry])
         value[entry] = 0;
+    if (storage_ == Storage::inverse)
+      continue;
     const Eigen::Vector3d axis = stored[flat].col(2);
     const double along = axis.x() * value[2] + axis.y() * value[5] + axis.z() * value[8];
     const double share = along / axis.squaredNorm();
@@ -113,7 +125,7 @@ double frobenius_condition(const Eigen::Matrix3d& matrix) {
   return matrix.norm() * matrix.inverse().norm();
 }
 
-std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
+std::vector<Eigen::Matrix3d> stepped(Storage storage, const std::vector<Eigen::Matrix3d>& stored,
                                      const NodeVectors& step,
                                      const std::vector<SingularityBound>& bounds) {
   constexpr int most_halvings = 30;
@@ -124,7 +136,7 @@ std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
     Eigen::Matrix3d change = unflattened(step[flat]);
     for (int halvings = 0; halvings < most_halvings; ++halvings, change /= 2) {
       Eigen::Matrix3d candidate = stored[flat] + change;
-      candidate /= candidate.col(2).norm();
+      candidate /= scale_of(storage, candidate);
       if (keeps(candidate, bounds[flat])) {
         result[flat] = candidate;
         break;

@@ -9,6 +9,7 @@
 
 #include "fit/quantile_model.h"
 #include "table/grid.h"
+#include "table/storage.h"
 
 namespace ltc {
 
@@ -20,13 +21,14 @@ using NodeVectors = std::vector<Vector9>;
 //   - theta = 0: every phi has the same matrix;
 //   - lambda = 1: the matrix at phi is that at pi/2 - phi with x and y swapped, so that a look-up
 //     does not jump where alpha_y overtakes alpha_x and equation (14) folds it;
-//   - the length of the third column, to first order;
+//   - the scale of the storage (scale_of): the middle entry, or the length of the third column to
+//     first order;
 //   - every matrix that is not `movable`.
 // All of them are subspaces, and the projection onto their intersection is orthogonal: their
 // projections commute, since symmetry maps zeros to zeros and lengths to lengths.
 class NodeSpace {
  public:
-  NodeSpace(const Grid& grid, const std::vector<bool>& movable);
+  NodeSpace(const Grid& grid, Storage storage, const std::vector<bool>& movable);
 
   // The nearest step from `stored` that keeps all that. `stored` itself keeps it.
   void project(const std::vector<Eigen::Matrix3d>& stored, NodeVectors& step) const;
@@ -42,6 +44,7 @@ class NodeSpace {
   };
   void average_orbits(NodeVectors& values) const;
 
+  Storage storage_;
   std::vector<std::vector<Image>> orbits_;  // of more than one image
   std::vector<FreeEntries> free_;           // none of a node that is not movable
 };
@@ -62,9 +65,9 @@ double solid_angle_of_columns(const Eigen::Matrix3d& matrix);
 // singular values. 3 for a rotation, not finite for a singular matrix.
 double frobenius_condition(const Eigen::Matrix3d& matrix);
 
-// stored + step with third columns of unit length again. Where that would pass its bound, the
+// stored + step, of scale 1 again. Where that would pass its bound, the
 // node takes half the step, and half again; tied nodes of equal bounds stay tied.
-std::vector<Eigen::Matrix3d> stepped(const std::vector<Eigen::Matrix3d>& stored,
+std::vector<Eigen::Matrix3d> stepped(Storage storage, const std::vector<Eigen::Matrix3d>& stored,
                                      const NodeVectors& step,
                                      const std::vector<SingularityBound>& bounds);
 

@@ -25,17 +25,24 @@ Eigen::Matrix3d random_rotation(Random& random) {
   return turn.normalized().toRotationMatrix();
 }
 
-// P = left S right for the matrix S that a table of this storage interpolates.
+// The matrix P in the mirror's frame of a matrix S that a table of this storage interpolates, and
+// how it changes: dP = left dS right.
 struct FrameOfStored {
-  Eigen::Matrix3d left, right;
+  Eigen::Matrix3d p, left, right;
 };
-FrameOfStored frame_of_stored(Storage storage, const LobeFrame& frame) {
-  FrameOfStored map{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
+FrameOfStored frame_of_stored(Storage storage, const LobeFrame& frame,
+                              const Eigen::Matrix3d& stored) {
+  Eigen::Matrix3d left = Eigen::Matrix3d::Identity(), right = Eigen::Matrix3d::Identity();
   if (storage != Storage::mirror_frame)
-    map.left = frame.rotation.transpose();
-  if (storage == Storage::matrix)
-    map.right.diagonal() << 1 / frame.lobe.alpha_x, 1 / frame.lobe.alpha_y, 1;
-  return map;
+    left = frame.rotation.transpose();
+  if (storage == Storage::matrix || storage == Storage::inverse)
+    right.diagonal() << 1 / frame.lobe.alpha_x, 1 / frame.lobe.alpha_y, 1;
+  if (storage != Storage::inverse)
+    return {left * stored * right, left, right};
+  // d(S^-1) = -S^-1 dS S^-1. The loss does not feel a factor, which is left out of what changes.
+  const Eigen::Matrix3d inverse = stored.inverse();
+  const double length = inverse.col(2).norm();
+  return {left * inverse * right / length, -left * inverse / length, inverse * right};
 }
 
 // dP/dS as a 9 x 9 matrix between row-major matrices.
@@ -138,16 +145,15 @@ void QuerySystem::evaluate_query(const Query& query, const Eigen::Matrix3d& inte
   const LobeFrame frame(query.lobe);
   const SampleSet& set = sets_[query.set];
   see_target(frame, set, buffers, binned);
-  const FrameOfStored map = frame_of_stored(storage_, frame);
-  const Eigen::Matrix3d p = map.left * interpolated * map.right;
+  const FrameOfStored map = frame_of_stored(storage_, frame, interpolated);
   const double spread = buffers.quantiles.spread(), share = query.weight / spread;
-  if (!p.allFinite()) {
+  if (!map.p.allFinite()) {
     model.loss = std::numeric_limits<double>::infinity();
     return;
   }
   ModelValue value;
   const double expected = model.loss > 0 ? model.loss / share : spread;
-  evaluate_model({frame, p, set.cosines, buffers.quantiles, 1, smoothing_share * expected},
+  evaluate_model({frame, map.p, set.cosines, buffers.quantiles, 1, smoothing_share * expected},
                  buffers.model, value);
   const Matrix9 to_frame = jacobian(map);
   model.loss = share * value.loss;

@@ -82,7 +82,7 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
   // What is left out needs no work.
   run.advance(evaluations(settings) *
               (refined_on.lobes.size() - queries.size() + held_out.lobes.size() - judge.size()));
-  const NodeSpace space(nodes.grid, movable);
+  const NodeSpace space(nodes.grid, nodes.storage, movable);
   std::vector<Eigen::Matrix3d> current = stored;
   space.symmetrise(current);
   double objective = queries.evaluate(current, run);
@@ -97,7 +97,7 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
     ++report.steps;
     const NodeVectors step =
         refinement_step(queries, space, current, damping, settings.overshoot, run);
-    const std::vector<Eigen::Matrix3d> trial = stepped(current, step, bounds);
+    const std::vector<Eigen::Matrix3d> trial = stepped(nodes.storage, current, step, bounds);
     const double next = queries.evaluate(trial, run);
     if (!(next < objective)) {
       damping *= damping_rise;

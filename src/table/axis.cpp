@@ -12,28 +12,37 @@
 namespace ltc {
 namespace {
 
-double warped(Warp warp, double x) {
-  switch (warp) {
+// u of a value within the axis, and back.
+double warped(const Axis& axis, double value) {
+  const double first = axis.first(), last = axis.last();
+  const double x = (value - first) / (last - first);
+  switch (axis.warp) {
     case Warp::linear:
       return x;
     case Warp::sqrt:
       return std::sqrt(x);
     case Warp::complement_sqrt:
       return x / (1 + std::sqrt(1 - x));  // 1 - sqrt(1 - x), near x = 0 too
+    case Warp::half_sine:
+      return (std::sin(value / 2) - std::sin(first / 2)) /
+             (std::sin(last / 2) - std::sin(first / 2));
   }
   return x;
 }
 
-double unwarped(Warp warp, double u) {
+double unwarped(Warp warp, double first, double last, double u) {
+  const auto at = [&](double x) { return first + (last - first) * x; };
   switch (warp) {
     case Warp::linear:
-      return u;
+      return at(u);
     case Warp::sqrt:
-      return u * u;
+      return at(u * u);
     case Warp::complement_sqrt:
-      return 1 - (1 - u) * (1 - u);
+      return at(1 - (1 - u) * (1 - u));
+    case Warp::half_sine:
+      return 2 * std::asin(std::sin(first / 2) + (std::sin(last / 2) - std::sin(first / 2)) * u);
   }
-  return u;
+  return at(u);
 }
 
 void require_range(double first, double last, std::size_t count) {
@@ -53,9 +62,9 @@ Axis Axis::make(double first, double last, std::size_t count, Warp warp) {
   axis.nodes.reserve(count);
   for (std::size_t i = 1; i < count; ++i) {
     const double u = static_cast<double>(i) / static_cast<double>(count - 1);
-    axis.nodes.push_back(first + (last - first) * unwarped(warp, u));
+    axis.nodes.push_back(unwarped(warp, first, last, u));
   }
-  // first + (last - first) may round to a neighbour of last; files promise last itself.
+  // What the last comes to may round to a neighbour of it; files promise it itself.
   if (count > 1)
     axis.nodes.back() = last;
   return axis;
@@ -64,8 +73,7 @@ Axis Axis::make(double first, double last, std::size_t count, Warp warp) {
 double Axis::coordinate(double value) const {
   if (size() == 1)
     return std::isnan(value) ? value : 0.0;
-  const double x = (value - first()) / (last() - first());
-  return warped(warp, std::clamp(x, 0.0, 1.0));
+  return std::clamp(warped(*this, std::clamp(value, first(), last())), 0.0, 1.0);
 }
 
 double Axis::position(double value) const {
@@ -78,7 +86,7 @@ double Axis::position(double value) const {
 }
 
 double Axis::value(double coordinate) const {
-  return first() + (last() - first()) * unwarped(warp, std::clamp(coordinate, 0.0, 1.0));
+  return unwarped(warp, first(), last(), std::clamp(coordinate, 0.0, 1.0));
 }
 
 }  // namespace ltc

@@ -15,13 +15,17 @@ enum class Warp {
   linear,           // u = x
   sqrt,             // u = sqrt(x): nodes dense near `first`
   complement_sqrt,  // u = 1 - sqrt(1 - x): nodes dense near `last`
+  // u linear in sin(value/2), for angles: sqrt(1 - cos(value)) / sqrt(1 - cos(last)) from first = 0
+  // on, the coordinate of the tables that engines ship.
+  half_sine,
 };
 
-constexpr EnumNames<Warp, 3> enum_names(Warp) {
+constexpr EnumNames<Warp, 4> enum_names(Warp) {
   return {"warp",
           {{{Warp::linear, "linear"},
             {Warp::sqrt, "sqrt"},
-            {Warp::complement_sqrt, "complement-sqrt"}}}};
+            {Warp::complement_sqrt, "complement-sqrt"},
+            {Warp::half_sine, "half-sine"}}}};
 }
 
 struct Axis {

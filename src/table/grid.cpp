@@ -16,7 +16,7 @@ Grid Grid::paper(const std::array<std::size_t, 4>& shape) {
   Grid grid;
   grid.alpha = Axis::make(0, 1, shape[0], Warp::linear);
   grid.lambda = Axis::make(0, 1, shape[1], Warp::linear);
-  grid.theta = Axis::make(0, 0.9999 * quarter_turn, shape[2], Warp::linear);
+  grid.theta = Axis::make(0, steepest_theta, shape[2], Warp::linear);
   grid.phi = Axis::make(0, quarter_turn, shape[3], Warp::linear);
   return grid;
 }
@@ -41,6 +41,13 @@ std::array<std::string_view, Grid::axis_count> Grid::axis_names() const {
   if (layout == Layout::alphax_alphay)
     return {"alpha_x", "alpha_y", "theta", "phi"};
   return {"alpha", "lambda", "theta", "phi"};
+}
+
+bool is_isotropic(const Grid& grid) {
+  const auto only = [](const Axis& axis, double value) {
+    return axis.size() == 1 && axis.first() == value;
+  };
+  return grid.layout == Layout::alpha_lambda && only(grid.lambda, 1) && only(grid.phi, 0);
 }
 
 std::array<std::size_t, Grid::axis_count> Grid::indices(std::size_t flat) const {
@@ -79,7 +86,9 @@ Lobe Grid::lobe(const NodeIndex& node) const {
   lobe.alpha_x = std::max(larger, alpha_min);
   const double second = lambda.nodes[node.lambda];
   lobe.alpha_y = std::max(layout == Layout::alphax_alphay ? second : second * larger, alpha_min);
-  lobe.theta_radians = theta.nodes[node.theta];
+  constexpr double horizon = std::numbers::pi / 2 * (1 - 1e-12);
+  const double angle = theta.nodes[node.theta];
+  lobe.theta_radians = angle < horizon ? angle : steepest_theta;
   lobe.phi_radians = phi.nodes[node.phi];
   lobe.model = model;
   return lobe;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ constexpr EnumNames<Layout, 2> enum_names(Layout) {
   return {"layout",
           {{{Layout::alpha_lambda, "alpha-lambda"}, {Layout::alphax_alphay, "alphax-alphay"}}}};
 }
+
+// The last view of the paper's grid.
+inline constexpr double steepest_theta = 0.9999 * std::numbers::pi / 2;
 
 // Axes: alpha is the larger roughness, lambda the ratio of the smaller to the larger, theta and phi
 // the view direction in radians. alpha_x = max(alpha, alpha_min), alpha_y = max(lambda alpha,
@@ -70,10 +74,14 @@ struct Grid {
   // All of these, axis by axis: the nodes that share a face with this one.
   std::vector<std::size_t> neighbours(std::size_t flat) const;
 
+  // A node of theta = pi/2, where nothing is seen, stands for the paper's last view, steepest_theta.
   Lobe lobe(const NodeIndex& node) const;
   Lobe lobe(std::size_t flat) const { return lobe(node(flat)); }
 
   bool operator==(const Grid&) const = default;
 };
+
+// Whether lambda = 1 and phi = 0 are the only nodes: a table of isotropic lobes.
+bool is_isotropic(const Grid& grid);
 
 }  // namespace ltc

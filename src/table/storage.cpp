@@ -2,7 +2,13 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "table/storage.h"
 
+#include <Eigen/LU>
+
 namespace ltc {
+
+double scale_of(Storage storage, const Eigen::Matrix3d& stored) {
+  return storage == Storage::inverse ? stored(1, 1) : stored.col(2).norm();
+}
 
 // 1 - x^2/(1 + z) = (y^2 + z + z^2)/(1 + z): of a grazing view nothing else would be left than the
 // rounding of 1.
@@ -20,6 +26,8 @@ Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& store
                                    const Lobe& lobe) {
   if (storage == Storage::matrix)
     return stored;
+  if (storage == Storage::inverse)
+    return stored.inverse();
   Eigen::Matrix3d matrix = stored;
   matrix.col(0) *= lobe.alpha_x;
   matrix.col(1) *= lobe.alpha_y;
@@ -32,6 +40,8 @@ Eigen::Matrix3d stored_from_matrix(Storage storage, const Eigen::Matrix3d& matri
                                    const Lobe& lobe) {
   if (storage == Storage::matrix)
     return matrix;
+  if (storage == Storage::inverse)
+    return matrix.inverse();
   Eigen::Matrix3d stored = matrix;
   if (storage == Storage::mirror_frame)
     stored = (mirror_rotation(lobe.omega_v()).transpose() * stored).eval();

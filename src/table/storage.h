@@ -15,18 +15,26 @@ enum class Storage {
   matrix,            // M = S, the published table's
   roughness_scaled,  // M = S A
   mirror_frame,      // M = Q S A, Q = mirror_rotation(omega_v)
+  // M = S^-1, S with the middle entry 1: what shaders of isotropic tables read and engines ship.
+  // Only of grids with lambda = 1 and phi = 0 alone, whose S is symmetric where x and y are.
+  inverse,
 };
 
-constexpr EnumNames<Storage, 3> enum_names(Storage) {
+constexpr EnumNames<Storage, 4> enum_names(Storage) {
   return {"storage",
           {{{Storage::matrix, "matrix"},
             {Storage::roughness_scaled, "roughness-scaled"},
-            {Storage::mirror_frame, "mirror-frame"}}}};
+            {Storage::mirror_frame, "mirror-frame"},
+            {Storage::inverse, "inverse"}}}};
 }
 
 // The least rotation from z to the mirror direction (-vx, -vy, vz) of a unit view direction, vz >
 // -1.
 Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v);
+
+// What S is divided by to have the scale of the storage: the length of its third column, or its
+// middle entry. 1 of every S in a table, but for rounding.
+double scale_of(Storage storage, const Eigen::Matrix3d& stored);
 
 // M of a lobe from the stored S, and S from M. Neither normalises.
 Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& stored,

@@ -27,7 +27,7 @@ TEST(Normalise, ThirdColumnHasUnitLengthInFloat) {
     if (matrix.determinant() <= 0)
       continue;
     ++tried;
-    const Eigen::Matrix3d normalised = normalise(matrix);
+    const Eigen::Matrix3d normalised = normalise(Storage::matrix, matrix);
     EXPECT_TRUE(is_float(normalised));
     EXPECT_NEAR(normalised.col(2).norm(), 1, 1e-6);
     EXPECT_GT(normalised.determinant(), 0);
@@ -48,7 +48,7 @@ TEST(Normalise, KeepsThePositiveDeterminantOfANearlySingularMatrix) {
     if (!(matrix.determinant() > 0))
       continue;
     turned_over += matrix.cast<float>().cast<double>().determinant() <= 0;
-    const Eigen::Matrix3d normalised = normalise(matrix);
+    const Eigen::Matrix3d normalised = normalise(Storage::matrix, matrix);
     EXPECT_TRUE(is_float(normalised));
     EXPECT_GT(normalised.determinant(), 0);
     EXPECT_NEAR(normalised.col(2).norm(), 1, 1e-6);
@@ -60,17 +60,17 @@ TEST(Normalise, KeepsThePositiveDeterminantOfANearlySingularMatrix) {
 TEST(Normalise, KeepsZeros) {
   Eigen::Matrix3d matrix;
   matrix << 0.3, 0, -2, 0, 0.2, 0, 0.5, 0, 2;
-  const Eigen::Matrix3d normalised = normalise(matrix);
+  const Eigen::Matrix3d normalised = normalise(Storage::matrix, matrix);
   for (int i = 0; i < 9; ++i)
     EXPECT_EQ(normalised(i) == 0, matrix(i) == 0);
 }
 
 TEST(Normalise, RefusesWhatCannotBeStored) {
-  EXPECT_THROW(normalise(Eigen::Matrix3d::Zero()), InputError);
-  EXPECT_THROW(normalise(-Eigen::Matrix3d::Identity()), InputError);
-  EXPECT_THROW(normalise(Eigen::Matrix3d::Constant(std::nan(""))), InputError);
+  EXPECT_THROW(normalise(Storage::matrix, Eigen::Matrix3d::Zero()), InputError);
+  EXPECT_THROW(normalise(Storage::matrix, -Eigen::Matrix3d::Identity()), InputError);
+  EXPECT_THROW(normalise(Storage::matrix, Eigen::Matrix3d::Constant(std::nan(""))), InputError);
   // Positive in double, but zero in float and every neighbour of it.
-  EXPECT_THROW(normalise(Eigen::Vector3d(1e-60, 1, 1).asDiagonal()), CheckFailure);
+  EXPECT_THROW(normalise(Storage::matrix, Eigen::Vector3d(1e-60, 1, 1).asDiagonal()), CheckFailure);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ std::vector<SingularityBound> no_bounds(const Grid& grid) {
 
 TEST(NodeSpace, ProjectionIsOrthogonal) {
   const Grid grid = small_grid();
-  const NodeSpace space(grid, all_of(grid));
+  const NodeSpace space(grid, Storage::matrix, all_of(grid));
   std::vector<Eigen::Matrix3d> stored = matrices(grid);
   space.symmetrise(stored);
   const NodeVectors a = random_step(grid.size(), 1), b = random_step(grid.size(), 2);
@@ -118,19 +118,19 @@ Broken broken(const Grid& grid, const std::vector<Eigen::Matrix3d>& stored) {
 
 TEST(NodeSpace, StepsKeepSymmetryAndLength) {
   const Grid grid = small_grid();
-  const NodeSpace space(grid, all_of(grid));
+  const NodeSpace space(grid, Storage::matrix, all_of(grid));
   std::vector<Eigen::Matrix3d> stored = matrices(grid);
   space.symmetrise(stored);
   NodeVectors step = random_step(grid.size(), 3);
   for (Vector9& value : step)
     value *= 0.02;
   // As drawn, the step breaks everything that the projection keeps.
-  const Broken as_drawn = broken(grid, stepped(stored, step, no_bounds(grid)));
+  const Broken as_drawn = broken(grid, stepped(Storage::matrix, stored, step, no_bounds(grid)));
   EXPECT_GT(as_drawn.zeros, 1e-3);
   EXPECT_GT(as_drawn.upward, 1e-3);
   EXPECT_GT(as_drawn.isotropic, 1e-3);
   space.project(stored, step);
-  const Broken projected = broken(grid, stepped(stored, step, no_bounds(grid)));
+  const Broken projected = broken(grid, stepped(Storage::matrix, stored, step, no_bounds(grid)));
   EXPECT_EQ(projected.zeros, 0);
   EXPECT_LT(projected.upward, 1e-15);
   EXPECT_LT(projected.isotropic, 1e-15);
@@ -142,7 +142,7 @@ TEST(NodeSpace, WhatIsNotMovableAndWhatIsTiedToItStays) {
   std::vector<bool> movable = all_of(grid);
   const std::size_t held = grid.flat({1, 1, 0, 1});
   movable[held] = false;
-  const NodeSpace space(grid, movable);
+  const NodeSpace space(grid, Storage::matrix, movable);
   NodeVectors step = random_step(grid.size(), 4);
   space.project(matrices(grid), step);
   for (std::size_t phi = 0; phi < 3; ++phi)
@@ -159,7 +159,7 @@ TEST(NodeSpace, StepsAreShortenedBeforeADeterminantTurns) {
     step[node][3 * row] = -3 * stored[node](row, 0);  // turns the first column round
   std::vector<SingularityBound> bounds = no_bounds(grid);
   bounds[node].determinant = 0.3 * stored[node].determinant();
-  const std::vector<Eigen::Matrix3d> result = stepped(stored, step, bounds);
+  const std::vector<Eigen::Matrix3d> result = stepped(Storage::matrix, stored, step, bounds);
   EXPECT_GE(result[node].determinant(), bounds[node].determinant);
   EXPECT_LT(result[node].determinant(), stored[node].determinant());
 }
@@ -173,8 +173,8 @@ TEST(NodeSpace, StepsAreShortenedBeforeColumnsMeet) {
     step[node][3 * row] = 500 * stored[node](row, 2);
   std::vector<SingularityBound> bounds = no_bounds(grid);
   bounds[node].solid_angle = 0.03;
-  EXPECT_LT(solid_angle_of_columns(stepped(stored, step, no_bounds(grid))[node]), 0.01);
-  const std::vector<Eigen::Matrix3d> result = stepped(stored, step, bounds);
+  EXPECT_LT(solid_angle_of_columns(stepped(Storage::matrix, stored, step, no_bounds(grid))[node]), 0.01);
+  const std::vector<Eigen::Matrix3d> result = stepped(Storage::matrix, stored, step, bounds);
   EXPECT_GE(solid_angle_of_columns(result[node]), 0.03);
   EXPECT_NE(result[node], stored[node]);
   EXPECT_NEAR(solid_angle_of_columns(2 * Eigen::Matrix3d::Identity()), 1, 1e-15);
@@ -191,14 +191,14 @@ TEST(NodeSpace, StepsAreShortenedBeforeAColumnVanishes) {
   step[node][4] = -0.99e-4;
   std::vector<SingularityBound> bounds = no_bounds(grid);
   bounds[node].determinant = 0.1 * stored[node].determinant();
-  EXPECT_GT(frobenius_condition(stepped(stored, step, bounds)[node]), 1e6);
+  EXPECT_GT(frobenius_condition(stepped(Storage::matrix, stored, step, bounds)[node]), 1e6);
   bounds[node].condition = 3e4;
-  const std::vector<Eigen::Matrix3d> result = stepped(stored, step, bounds);
+  const std::vector<Eigen::Matrix3d> result = stepped(Storage::matrix, stored, step, bounds);
   EXPECT_LE(frobenius_condition(result[node]), 3e4);
   EXPECT_NE(result[node], stored[node]);
   // A table that stores M without its roughness is bound by M.
   bounds[node].scale = {1, 0.5, 1};
-  EXPECT_LE(frobenius_condition(stepped(stored, step, bounds)[node]), 1.5e4);
+  EXPECT_LE(frobenius_condition(stepped(Storage::matrix, stored, step, bounds)[node]), 1.5e4);
   EXPECT_NEAR(frobenius_condition(-2 * Eigen::Matrix3d::Identity()), 3, 1e-12);
   EXPECT_NEAR(frobenius_condition(stored[node]), std::sqrt(1.01) * 1e4, 10);
   EXPECT_FALSE(std::isfinite(frobenius_condition(Eigen::Matrix3d::Zero())));
@@ -285,7 +285,7 @@ TEST(RefinementStep, SolvesTheDampedNormalEquations) {
   const Grid grid = small_grid();
   System system(grid);
   std::vector<Eigen::Matrix3d> stored = matrices(grid);
-  const NodeSpace space(grid, all_of(grid));
+  const NodeSpace space(grid, Storage::matrix, all_of(grid));
   space.symmetrise(stored);
   system.queries.evaluate(stored, {1});
   system.queries.adopt();
