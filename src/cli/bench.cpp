@@ -31,7 +31,7 @@ struct Arguments {
   std::size_t entries = default_entries;
   bool all = false;
   std::string published, reference;  // empty: none
-  std::optional<Layout> layout;      // of both
+  std::optional<ReadAs> layout;      // of both
   std::size_t whole_fits = 0;
   CompareSettings judge;
   std::string json, csv, picture;  // empty: none
@@ -117,7 +117,7 @@ std::string report_text(const FrontierReport& report) {
   return text + (notes.empty() ? "" : "\n" + notes);
 }
 
-std::optional<Table> table_of(const std::string& file, std::optional<Layout> layout) {
+std::optional<Table> table_of(const std::string& file, std::optional<ReadAs> layout) {
   return file.empty() ? std::nullopt : std::optional<Table>(read_input(file, layout));
 }
 

@@ -15,6 +15,8 @@ Action declare_diff(CLI::App& app);
 Action declare_validate(CLI::App& app);
 Action declare_bench(CLI::App& app);
 Action declare_render(CLI::App& app);
+Action declare_convert(CLI::App& app);
+Action declare_lookup(CLI::App& app);
 Action declare_stress(CLI::App& app);
 Action declare_completion(CLI::App& app);
 Action declare_man(CLI::App& app);
@@ -45,6 +47,8 @@ std::span<const Command> commands() {
        "fit at the extremes from good and bad starts, and count what fails", declare_stress},
       {"render", "Compare and validate tables", "render spheres with a table and with sampled GGX",
        declare_render},
+      {"convert", "Use tables", "write a table in another format or layout", declare_convert},
+      {"lookup", "Use tables", "print what a table gives for the lobes of a file", declare_lookup},
       {"completion", "Help at hand", "print a script by which bash, zsh or fish complete commands",
        declare_completion},
       {"man", "Help at hand", "print the manual page", declare_man},

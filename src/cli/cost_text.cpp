@@ -17,7 +17,7 @@ std::size_t file_bytes(const Config& config) {
   std::size_t bytes = 0;
   for (const Format& format : formats())
     if (format.is_written(config))
-      bytes += format.entry_bytes / (format.half && config.output.exr_half ? 2 : 1);
+      bytes += format.entry_bytes / (write_options(format, config.output).half ? 2 : 1);
   return bytes * config.grid.size();
 }
 

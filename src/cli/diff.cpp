@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::string a, b;
-  std::optional<Layout> layout;
+  std::optional<ReadAs> layout;
   std::string csv, json, map;  // empty: none
   std::optional<double> tolerance;
   CompareSettings settings;

@@ -41,7 +41,7 @@ struct Arguments {
   std::string solver, seed, samples;  // empty: the config's
   std::string start;                  // empty: the solver's own
   std::string trace, plot, json;      // empty: none
-  std::optional<Layout> layout;       // of the table of as_in or start
+  std::optional<ReadAs> layout;       // of the table of as_in or start
   bool check_gradient = false;
   int threads = processor_count();
 };
@@ -129,7 +129,7 @@ std::string start_table(const std::string& start) {
 // M of --start; `entry` is that of the config's grid, where the lobe is one.
 Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const Lobe& lobe,
                             std::optional<std::size_t> entry, std::uint64_t seed,
-                            std::optional<Layout> layout) {
+                            std::optional<ReadAs> layout) {
   constexpr std::string_view given = "matrix=";
   if (text.starts_with(given))
     return parse_matrix(text, std::string_view(text).substr(given.size()));

@@ -36,7 +36,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Arguments {
   std::string table, table_b;  // table_b empty: none
-  std::optional<Layout> layout;
+  std::optional<ReadAs> layout;
   RoughnessArguments roughness;
   std::vector<std::string> materials;  // as parse_roughness takes them
   double f0 = 1;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "cli/options.h"
@@ -12,27 +13,34 @@
 
 namespace ltc::cli {
 
-void add_layout_option(CLI::App& app, std::optional<Layout>& layout) {
-  const auto set = [&layout](const std::string& name) { layout = value_named<Layout>(name); };
+void add_layout_option(CLI::App& app, std::optional<ReadAs>& as) {
+  std::vector<std::string> axes = all_names<Layout>(), names = axes;
+  for (const std::string& name : all_names<TextureLayout>())
+    if (value_named<TextureLayout>(name) != TextureLayout::automatic)
+      names.push_back(name);
+  const auto set = [&as, axes](const std::string& name) {
+    as.emplace();
+    if (std::ranges::find(axes, name) != axes.end())
+      as->axes = value_named<Layout>(name);
+    else
+      as->textures = value_named<TextureLayout>(name);
+  };
   CLI::Option* const option = app.add_option_function<std::string>(
       "--layout", set,
       fmt::format(
-          "what the first two axes of an {} hold: alpha-lambda or alphax-alphay [told apart "
-          "by the symmetry of alpha_x and alpha_y]",
-          endings_text([](const Format& format) { return format.without_axes; })));
-  allow_names(option, all_names<Layout>())->option_text("LAYOUT")->group("How to read tables");
+          "what files hold that do not say it: the first two axes of an {}, alpha-lambda "
+          "or alphax-alphay [by the symmetry of alpha_x and alpha_y]; textures, one of {} "
+          "[by their shapes and by where their lobes lie]",
+          endings_text([](const Format& format) { return format.without_axes; }),
+          fmt::join(names.begin() + static_cast<std::ptrdiff_t>(axes.size()), names.end(), ", ")));
+  allow_names(option, names)->option_text("LAYOUT")->group("How to read tables");
 }
 
-Table read_input(const std::string& file, std::optional<Layout> layout) {
-  Table table = read_table(file, layout);
+Table read_input(const std::string& file, const std::optional<ReadAs>& as) {
+  Table table = read_table(file, as.value_or(ReadAs{}));
   // A line that cannot be written is no reason to stop.
-  if (!layout && table.grid.layout == Layout::alphax_alphay)
-    std::fputs(
-        fmt::format("{}: read with axes alpha_x, alpha_y, theta, phi, since exchanging the first "
-                    "two is its symmetry; --layout alpha-lambda reads it otherwise\n",
-                    one_line(file))
-            .c_str(),
-        stderr);
+  if (!as && !table.read_as.empty())
+    std::fputs(fmt::format("{}: {}\n", one_line(file), table.read_as).c_str(), stderr);
   return table;
 }
 

@@ -7,15 +7,15 @@
 #include <optional>
 #include <string>
 
-#include "table/table.h"
+#include "export/table_file.h"
 
 namespace ltc::cli {
 
-// --layout, for .npy; nothing where it is left out.
-void add_layout_option(CLI::App& app, std::optional<Layout>& layout);
+// --layout, for files that do not say what they hold; nothing where it is left out.
+void add_layout_option(CLI::App& app, std::optional<ReadAs>& as);
 
-// read_table; on standard error, in a line, where an array was taken for one of alpha_x and alpha_y
-// without being told to.
-Table read_input(const std::string& file, std::optional<Layout> layout);
+// read_table; on standard error, in a line, what a file was taken for that does not say it, and
+// why.
+Table read_input(const std::string& file, const std::optional<ReadAs>& as);
 
 }  // namespace ltc::cli

@@ -23,7 +23,7 @@ namespace {
 
 struct Arguments {
   std::string table;
-  std::optional<Layout> layout;
+  std::optional<ReadAs> layout;
   ConfigArguments config;
   std::string json, report;  // empty: none
   bool no_quality = false;

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "config/draft.h"
 #include "config/reader.h"
 #include "config/registry.h"
@@ -39,10 +42,14 @@ void check_together(const Draft& draft, const config::Sources& sources) {
         config::latest_source(sources, {"table.storage", "table.lambda.first", "table.lambda.nodes",
                                         "table.phi.first_degrees", "table.phi.nodes"})));
   const OutputSettings& output = draft.config.output;
-  if (!output.hdf5 && !output.exr && !output.npy)
-    throw InputError(fmt::format(
-        "{}: output.hdf5, output.exr and output.npy are all false; expected at least one true",
-        config::latest_source(sources, {"output.hdf5", "output.exr", "output.npy"})));
+  constexpr std::array formats = {
+      &OutputSettings::hdf5, &OutputSettings::exr,        &OutputSettings::npy,
+      &OutputSettings::dds,  &OutputSettings::ktx2,       &OutputSettings::json,
+      &OutputSettings::raw,  &OutputSettings::javascript, &OutputSettings::c_header};
+  if (std::ranges::none_of(formats, [&](bool OutputSettings::*format) { return output.*format; }))
+    throw InputError(
+        fmt::format("{}: no format of [output] is true; expected at least one, such as output.hdf5",
+                    config::latest_source(sources, {"output.hdf5", "output.exr", "output.npy"})));
   const FitSettings& fit = draft.config.fit;
   if (fit.sgd.lattice_samples && fit.target == TargetKind::rejection)
     throw InputError(

@@ -10,21 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "config/output_settings.h"
 #include "fit/settings.h"
 #include "refine/refine_settings.h"
 #include "table/grid.h"
 #include "table/storage.h"
 
 namespace ltc {
-
-struct OutputSettings {
-  std::string name = "ltc";  // files are <name>.h5, <name>.0.exr, …, <name>.npy
-  bool hdf5 = true;
-  bool exr = true;
-  bool npy = true;
-  bool exr_half = false;  // 16-bit textures instead of 32-bit
-  bool operator==(const OutputSettings&) const = default;
-};
 
 struct Config {
   Storage storage = Storage::matrix;

@@ -106,11 +106,21 @@ std::vector<Key> refine_keys() {
 
 std::vector<Key> output_keys() {
   return {
-      file_name_key("output.name", [](Draft& d) { return &d.config.output.name; }, "the files are NAME.h5, NAME.0.exr, NAME.1.exr, NAME.2.exr and NAME.npy"),
+      file_name_key("output.name", [](Draft& d) { return &d.config.output.name; }, "the files are NAME.h5, NAME.0.exr and so on"),
       key("output.hdf5", [](Draft& d) { return &d.config.output.hdf5; }, "write HDF5: everything, with what made it"),
       key("output.exr", [](Draft& d) { return &d.config.output.exr; }, "write OpenEXR textures: for engines"),
       key("output.npy", [](Draft& d) { return &d.config.output.npy; }, "write NPY: the matrices alone"),
-      key("output.exr_half", [](Draft& d) { return &d.config.output.exr_half; }, "16-bit textures instead of 32-bit"),
+      key("output.dds", [](Draft& d) { return &d.config.output.dds; }, "write DDS textures"),
+      key("output.ktx2", [](Draft& d) { return &d.config.output.ktx2; }, "write KTX2 textures"),
+      key("output.json", [](Draft& d) { return &d.config.output.json; }, "write the textures as JSON arrays"),
+      key("output.javascript", [](Draft& d) { return &d.config.output.javascript; }, "write the textures as a JavaScript module"),
+      key("output.c_header", [](Draft& d) { return &d.config.output.c_header; }, "write the textures as a C header"),
+      key("output.raw", [](Draft& d) { return &d.config.output.raw; }, "write the textures' bytes, with a JSON file beside that describes them"),
+      key("output.exr_half", [](Draft& d) { return &d.config.output.exr_half; }, "16-bit OpenEXR instead of 32-bit"),
+      key("output.half", [](Draft& d) { return &d.config.output.half; }, "16-bit values in DDS, KTX2 and raw files, else 32-bit"),
+      key("output.layout", [](Draft& d) { return &d.config.output.layout; }, "how values lie in the textures of DDS, KTX2, JSON, JavaScript, C and raw files"),
+      key("output.zstd", [](Draft& d) { return &d.config.output.zstd; }, "compress KTX2"),
+      key("output.javascript_style", [](Draft& d) { return &d.config.output.javascript_style; }, "a module of arrays, or the one that three.js imports"),
   };
 }
 // clang-format on

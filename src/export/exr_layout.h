@@ -13,7 +13,7 @@ namespace ltc {
 
 // Every entry counts as fitted, its loss is NaN, its steps 0, precision `half` where a channel is;
 // seed, config, generator and created are empty, the BRDF is taken to be GGX.
-Table read_exr(const TableFiles& files, std::optional<Layout> layout);
+Table read_exr(const TableFiles& files, const ReadAs& as);
 
 namespace exr_layout {
 

@@ -218,7 +218,7 @@ void read_file_into(Table& table, std::size_t index, const fs::path& path) {
 
 }  // namespace
 
-Table read_exr(const TableFiles& paths, std::optional<Layout>) {
+Table read_exr(const TableFiles& paths, const ReadAs&) {
   Table table;
   for (std::size_t index = 0; index < paths.size(); ++index)
     read_file_into(table, index, paths[index]);

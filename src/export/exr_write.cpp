@@ -146,11 +146,11 @@ void add_exr(platform::FileSet& set, const Table& table, const TableFiles& paths
 
 Format exr_format() {
   return {.name = "OpenEXR",
-          .endings = {".0.exr", ".1.exr", ".2.exr"},
+          .sets = {{".0.exr", ".1.exr", ".2.exr"}},
           .asked = &OutputSettings::exr,
           .contents = {.albedo = true, .loss = false},
           .entry_bytes = files * channels_per_file * 4,
-          .half = true,
+          .half = &OutputSettings::exr_half,
           .read = read_exr,
           .add = add_exr};
 }

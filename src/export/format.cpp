@@ -2,33 +2,49 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "export/format.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace ltc {
 
 // Each in the file of its name.
-Format hdf5_format(), exr_format(), npy_format();
+Format hdf5_format(), exr_format(), npy_format(), dds_format(), ktx2_format(), raw_format(),
+    json_format(), javascript_format(), c_header_format();
 
 namespace {
 
 std::list<Format>& list() {
-  static std::list<Format> all = {hdf5_format(), exr_format(), npy_format()};
+  static std::list<Format> all = {
+      hdf5_format(), exr_format(),        npy_format(),
+      dds_format(),  ktx2_format(),       raw_format(),  // .bin.json first
+      json_format(), javascript_format(), c_header_format()};
   return all;
+}
+
+TableFiles named(const std::filesystem::path& prefix, const std::vector<std::string>& endings) {
+  TableFiles files;
+  for (const std::string& ending : endings)
+    files.emplace_back(prefix.string() + ending);
+  return files;
 }
 
 }  // namespace
 
-TableFiles Format::files(const std::filesystem::path& prefix) const {
+TableFiles Format::files(const std::filesystem::path& prefix, TextureLayout layout) const {
+  return named(prefix, sets[set_for ? set_for(layout) : 0]);
+}
+
+TableFiles Format::all_files(const std::filesystem::path& prefix) const {
   TableFiles result;
-  for (const std::string& ending : endings)
-    result.emplace_back(prefix.string() + ending);
+  for (const std::vector<std::string>& endings : sets)
+    std::ranges::copy(named(prefix, endings), std::back_inserter(result));
   return result;
 }
 
-std::string Format::why_not(const Grid& grid, Storage storage) const {
+std::string Format::why_not(const Grid& grid, Storage storage, TextureLayout layout) const {
   if (!without_axes && grid.layout != Layout::alpha_lambda)
     return "is over alpha_x and alpha_y; expected alpha and lambda";
-  return limits ? limits(grid, storage) : "";
+  return limits ? limits(grid, storage, resolved(layout, storage)) : "";
 }
 
 const std::list<Format>& formats() {
@@ -42,18 +58,30 @@ AddedFormat::~AddedFormat() {
 }
 
 const Format* find_format(const std::filesystem::path& file) {
+  return set_of(file).format;
+}
+
+NamedSet set_of(const std::filesystem::path& file) {
+  const std::string name = file.string();
   for (const Format& format : formats())
-    for (const std::string& ending : format.endings)
-      if (file.string().ends_with(ending))
-        return &format;
-  return nullptr;
+    for (const std::vector<std::string>& endings : format.sets)
+      for (const std::string& ending : endings)
+        if (name.ends_with(ending)) {
+          const std::filesystem::path prefix = name.substr(0, name.size() - ending.size());
+          return {&format, prefix, named(prefix, endings)};
+        }
+  return {nullptr, file, {file}};
+}
+
+WriteOptions write_options(const Format& format, const OutputSettings& output) {
+  return {format.half && output.*format.half, output.layout, output.zstd, output.javascript_style};
 }
 
 std::string endings_text(const std::function<bool(const Format&)>& which) {
   std::vector<std::string> endings;
   for (const Format& format : formats())
     if (which(format))
-      endings.push_back(format.endings.front());
+      endings.push_back(format.sets.back().front());
   std::string text;
   for (std::size_t i = 0; i < endings.size(); ++i)
     text += (i == 0 ? "" : i + 1 < endings.size() ? ", " : " or ") + endings[i];

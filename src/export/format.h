@@ -13,6 +13,7 @@
 
 #include "config/config.h"
 #include "core/platform.h"
+#include "export/texture_layout.h"
 #include "table/table.h"
 
 namespace ltc {
@@ -24,7 +25,16 @@ struct TableContents {
 };
 
 struct WriteOptions {
-  bool half = false;  // 16-bit values, where the format has them
+  bool half = false;                                // 16-bit values, where the format has them
+  TextureLayout layout = TextureLayout::automatic;  // of formats that are textures
+  bool zstd = true;
+  ScriptStyle javascript_style = ScriptStyle::arrays;
+};
+
+// What a file does not say of itself, or is not asked for.
+struct ReadAs {
+  std::optional<Layout> axes;  // of arrays without axes; else told apart
+  TextureLayout textures = TextureLayout::automatic;
 };
 
 // The files of one table, in the order of the format's endings.
@@ -33,30 +43,42 @@ using TableFiles = std::vector<std::filesystem::path>;
 struct Format {
   std::string name;  // as users know it: "NPY"
   // What the names of the files end in, one a file of the set: ".0.exr", ".1.exr", ".2.exr".
-  std::vector<std::string> endings;
+  // Formats of textures have several such sets, the one that all their names end in last.
+  std::vector<std::vector<std::string>> sets;
   bool OutputSettings::*asked = nullptr;  // the key of [output] that asks for it; null: none does
   TableContents contents = {};
   std::size_t entry_bytes = 0;  // of an entry, uncompressed, in values of 32 bits
-  bool half = false;            // whether it has 16-bit values
-  bool without_axes = false;    // whether a reader is to be told the layout of the grid
-  // Why it cannot hold tables of this grid and storage, after "it"; empty where it can. Null: it
-  // holds all.
-  std::string (*limits)(const Grid& grid, Storage storage) = nullptr;
+  // The key that asks for 16-bit values; null: it has none.
+  bool OutputSettings::*half = nullptr;
+  bool without_axes = false;  // whether a reader is to be told the layout of the grid
+  // Whether others use such names for files of their own, so that none is removed as an older one
+  // of the set.
+  bool ending_of_others = false;
+  // Which of the sets is written; null: the first.
+  std::function<std::size_t(TextureLayout layout)> set_for = {};
+  // Why it cannot hold tables of this grid, storage and layout, after "it"; empty where it can.
+  // Null: it holds all.
+  std::function<std::string(const Grid& grid, Storage storage, TextureLayout layout)> limits = {};
   // Throws IoError for a file that cannot be opened; InputError, naming file and fault, for one
   // that is none of the format or damaged, or disagrees with the others of the set.
-  Table (*read)(const TableFiles& files, std::optional<Layout> layout) = nullptr;
+  std::function<Table(const TableFiles& files, const ReadAs& as)> read = {};
   // Adds the files to those that take their places with set.commit(); the same table gives the same
   // bytes. The table is consistent (export/consistency.h) and one that the format can hold.
-  void (*add)(platform::FileSet& set, const Table& table, const TableFiles& files,
-              const WriteOptions& options) = nullptr;
+  std::function<void(platform::FileSet& set, const Table& table, const TableFiles& files,
+                     const WriteOptions& options)>
+      add = {};
 
-  TableFiles files(const std::filesystem::path& prefix) const;
+  // Those that are written, `layout` resolved.
+  TableFiles files(const std::filesystem::path& prefix, TextureLayout layout) const;
+  // Those that any layout writes.
+  TableFiles all_files(const std::filesystem::path& prefix) const;
   // The same for any format: one that names its axes calls them alpha and lambda.
-  std::string why_not(const Grid& grid, Storage storage) const;
+  std::string why_not(const Grid& grid, Storage storage, TextureLayout layout) const;
   // Whether [output] asks for it, and whether it can hold the config's table too.
   bool is_asked(const OutputSettings& output) const { return asked && output.*asked; }
   bool is_written(const Config& config) const {
-    return is_asked(config.output) && why_not(config.grid, config.storage).empty();
+    return is_asked(config.output) &&
+           why_not(config.grid, config.storage, config.output.layout).empty();
   }
 };
 
@@ -83,7 +105,19 @@ inline bool keeps_fits(const Format& format) {
 // The format of a file of such a name; null where none has its ending.
 const Format* find_format(const std::filesystem::path& file);
 
-// ".h5, .0.exr or .npy": what the first file's name ends in, of all formats that `which` takes.
+// The set of files that one of such a name belongs to, and what they have in common: "out/ltc" of
+// "out/ltc.1.exr".
+struct NamedSet {
+  const Format* format = nullptr;  // null where no format has its ending
+  std::filesystem::path prefix;
+  TableFiles files;
+};
+NamedSet set_of(const std::filesystem::path& file);
+
+// What the options of [output] are to a format.
+WriteOptions write_options(const Format& format, const OutputSettings& output);
+
+// ".h5, .0.exr or .npy": what a file's name ends in, of all formats that `which` takes.
 std::string endings_text(const std::function<bool(const Format&)>& which = [](const Format&) {
   return true;
 });

@@ -197,11 +197,11 @@ Table read_hdf5_unguarded(const fs::path& path) {
 
 Format hdf5_format() {
   return {.name = "HDF5",
-          .endings = {".h5"},
+          .sets = {{".h5"}},
           .asked = &OutputSettings::hdf5,
           .entry_bytes = 12 * 4 + 3,  // matrix, albedos, loss; status, steps
           .read = [](const TableFiles& files,
-                     std::optional<Layout>) { return read_hdf5(files.front()); },
+                     const ReadAs&) { return read_hdf5(files.front()); },
           .add = [](platform::FileSet& set, const Table& table, const TableFiles& files,
                     const WriteOptions&) { add_hdf5(set, table, files.front()); }};
 }

@@ -22,6 +22,7 @@
 #include "export/consistency.h"
 #include "export/file.h"
 #include "export/format.h"
+#include "export/npy_header.h"
 
 namespace ltc {
 namespace {
@@ -31,26 +32,10 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little,
               "values are copied as they lie in memory");
 
-constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t max_header_bytes = 4096;  // NumPy's own takes 128
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what) {
   throw InputError(fmt::format("{}: {}", path.string(), what));
-}
-
-std::string make_header(const Grid& grid) {
-  std::string dictionary =
-      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, 3, 3), }}",
-                  fmt::join(grid.shape(), ", "));
-  // Version 1.0: magic, two bytes of version, two of length; the whole a multiple of 64, the last
-  // byte a line break.
-  const std::size_t unpadded = magic.size() + 4 + dictionary.size() + 1;
-  dictionary.append((64 - unpadded % 64) % 64, ' ');
-  dictionary += '\n';
-  std::string header(magic);
-  header += {'\x01', '\x00', static_cast<char>(dictionary.size() & 0xff),
-             static_cast<char>(dictionary.size() >> 8)};
-  return header + dictionary;
 }
 
 // Exactly `count` bytes, or InputError.
@@ -63,10 +48,10 @@ std::string take(std::ifstream& file, std::size_t count, const fs::path& path) {
 
 // The header's dictionary, as text.
 std::string read_dictionary(std::ifstream& file, const fs::path& path) {
-  const std::string start = take(file, magic.size() + 2, path);
-  if (!start.starts_with(magic))
+  const std::string start = take(file, npy_magic.size() + 2, path);
+  if (!start.starts_with(npy_magic))
     refuse(path, "no NumPy array: it does not start with \\x93NUMPY");
-  const int major = start[magic.size()];
+  const int major = start[npy_magic.size()];
   if (major < 1 || major > 3)
     refuse(path, fmt::format("NumPy format version is {}; allowed: 1 to 3", major));
   std::size_t length = 0;
@@ -147,7 +132,7 @@ void set_status(Table& table) {
 }
 
 // An array says nothing of axes: readers take those of Grid::paper, with its own node counts.
-std::string limits_of_npy(const Grid& grid, Storage) {
+std::string limits_of_npy(const Grid& grid, Storage, TextureLayout) {
   return grid == Grid::paper(grid.shape()) ? "" : "holds the paper's grid only";
 }
 
@@ -159,7 +144,10 @@ void add_npy(platform::FileSet& set, const Table& table, const fs::path& path) {
       matrices.set_stored(i, table.matrix_at(i));
   const std::string_view values(reinterpret_cast<const char*>(matrices.stored.data()),
                                 matrices.stored.size() * sizeof(float));
-  add_file(set, path, make_header(table.grid).append(values));
+  const auto [alphas, lambdas, thetas, phis] = table.grid.shape();
+  add_file(
+      set, path,
+      npy_header(std::array<std::size_t, 6>{alphas, lambdas, thetas, phis, 3, 3}).append(values));
 }
 
 // What the first two axes of such an array hold, by the symmetry that only alpha_x and alpha_y
@@ -200,6 +188,10 @@ Table read_npy(const fs::path& path, std::optional<Layout> layout) {
   set_status(table);
   require_consistent(table, path);
   table.grid.layout = layout.value_or(layout_of(table));
+  if (table.grid.layout == Layout::alphax_alphay)
+    table.read_as =
+        "read with axes alpha_x, alpha_y, theta, phi, since exchanging the first two is its "
+        "symmetry; layout alpha-lambda reads it otherwise";
   return table;
 }
 
@@ -207,14 +199,14 @@ Table read_npy(const fs::path& path, std::optional<Layout> layout) {
 
 Format npy_format() {
   return {.name = "NPY",
-          .endings = {".npy"},
+          .sets = {{".npy"}},
           .asked = &OutputSettings::npy,
           .contents = {.albedo = false, .loss = false},
           .entry_bytes = 9 * 4,
           .without_axes = true,
           .limits = limits_of_npy,
           .read = [](const TableFiles& files,
-                     std::optional<Layout> layout) { return read_npy(files.front(), layout); },
+                     const ReadAs& as) { return read_npy(files.front(), as.axes); },
           .add = [](platform::FileSet& set, const Table& table, const TableFiles& files,
                     const WriteOptions&) { add_npy(set, table, files.front()); }};
 }

@@ -14,57 +14,52 @@
 namespace ltc {
 namespace {
 
-const Format& format_of(const std::filesystem::path& path) {
-  if (const Format* const format = find_format(path))
-    return *format;
+NamedSet require_set(const std::filesystem::path& path) {
+  const NamedSet set = set_of(path);
+  if (set.format)
+    return set;
   std::vector<std::string> endings;
   for (const Format& format : formats())
-    endings.insert(endings.end(), format.endings.begin(), format.endings.end());
+    for (const std::vector<std::string>& set_endings : format.sets)
+      endings.insert(endings.end(), set_endings.begin(), set_endings.end());
   throw InputError(fmt::format("{}: no suffix of a table; allowed: {}", path.string(),
                                fmt::join(endings, ", ")));
 }
 
-// "out/ltc" of "out/ltc.1.exr".
-std::filesystem::path prefix_of(const Format& format, const std::filesystem::path& path) {
-  std::string name = path.string();
-  for (const std::string& ending : format.endings)
-    if (name.ends_with(ending))
-      return name.substr(0, name.size() - ending.size());
-  return name;
-}
-
 }  // namespace
 
-Table read_table(const std::filesystem::path& path, std::optional<Layout> layout) {
-  const Format& format = format_of(path);
-  return format.read(format.files(prefix_of(format, path)), layout);
+Table read_table(const std::filesystem::path& path, const ReadAs& as) {
+  const NamedSet set = require_set(path);
+  return set.format->read(set.files, as);
 }
 
 void write_table(const Table& table, const std::filesystem::path& path,
                  const WriteOptions& options) {
-  const Format& format = format_of(path);
+  const NamedSet named = require_set(path);
   platform::FileSet set;
-  add_table(set, table, format, prefix_of(format, path), options);
+  add_table(set, table, *named.format, named.prefix, options);
   set.commit();
 }
 
 void add_table(platform::FileSet& set, const Table& table, const Format& format,
                const std::filesystem::path& prefix, const WriteOptions& options) {
-  const TableFiles files = format.files(prefix);
+  const TextureLayout layout = resolved(options.layout, table.storage);
+  const TableFiles files = format.files(prefix, layout);
   require_consistent(table, files.front());
-  if (const std::string why = format.why_not(table.grid, table.storage); !why.empty())
+  if (const std::string why = format.why_not(table.grid, table.storage, layout); !why.empty())
     throw InputError(fmt::format("{}: {} cannot hold this table: it {}", files.front().string(),
                                  format.name, why));
-  format.add(set, table, files, options);
+  WriteOptions of_table = options;
+  of_table.layout = layout;
+  format.add(set, table, files, of_table);
 }
 
 TableFiles files_of_table(const std::filesystem::path& path) {
-  const Format* const format = find_format(path);
-  return format ? format->files(prefix_of(*format, path)) : TableFiles{path};
+  return set_of(path).files;
 }
 
 TableContents contents_of(const std::filesystem::path& path) {
-  return format_of(path).contents;
+  return require_set(path).format->contents;
 }
 
 bool is_whole_table(const std::filesystem::path& path) {

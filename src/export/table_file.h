@@ -12,9 +12,9 @@
 
 namespace ltc {
 
-// `layout` is for files without axes; others say what they hold. Throws InputError for a name that
-// no format ends in, and as Format::read.
-Table read_table(const std::filesystem::path& path, std::optional<Layout> layout = std::nullopt);
+// `as` is for files that do not say what they hold; those that do go by it. Throws InputError for a
+// name that no format ends in, and as Format::read.
+Table read_table(const std::filesystem::path& path, const ReadAs& as = {});
 
 // Whole or not at all: older files stand until the new ones are whole. Throws InputError for a name
 // that no format ends in, for a table that is not consistent (export/consistency.h) or that the

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -125,10 +126,11 @@ void write_files(const RunRequest& request, const RunContext& context,
   for (const Format& format : formats()) {
     context.throw_if_stopped();
     if (format.is_written(request.config))
-      add_table(files, report.table, format, request.folder / output.name, {output.exr_half});
+      add_table(files, report.table, format, request.folder / output.name,
+                write_options(format, output));
     else if (format.is_asked(output))
-      report.left_out.emplace_back(format.name,
-                                   format.why_not(request.config.grid, request.config.storage));
+      report.left_out.emplace_back(
+          format.name, format.why_not(request.config.grid, request.config.storage, output.layout));
   }
   for (const fs::path& file : report.removed)
     files.remove(file);
@@ -167,9 +169,9 @@ void make_files(const RunRequest& request, const Work& work, const RunContext& c
 // What 16-bit values cost, where any were written.
 std::string half_text(const RunRequest& request, const Table& table, int threads) {
   const bool written = std::ranges::any_of(formats(), [&](const Format& format) {
-    return format.half && format.is_written(request.config);
+    return format.is_written(request.config) && write_options(format, request.config.output).half;
   });
-  if (request.folder.empty() || !request.config.output.exr_half || !written)
+  if (request.folder.empty() || !written)
     return "";
   std::vector<bool> judged(table.status.size());
   std::transform(table.status.begin(), table.status.end(), judged.begin(), has_values);
@@ -182,9 +184,15 @@ FilesOfRun files_of_run(const Config& config, const fs::path& folder) {
   const fs::path prefix = folder / config.output.name;
   FilesOfRun files;
   for (const Format& format : formats()) {
-    std::vector<fs::path>& list = format.is_written(config) ? files.written : files.others;
-    for (const fs::path& file : format.files(prefix))
-      list.push_back(file);
+    TableFiles written;
+    if (format.is_written(config))
+      written = format.files(prefix, resolved(config.output.layout, config.storage));
+    std::ranges::copy(written, std::back_inserter(files.written));
+    if (format.ending_of_others)
+      continue;
+    std::ranges::copy_if(
+        format.all_files(prefix), std::back_inserter(files.others),
+        [&](const fs::path& file) { return std::ranges::find(written, file) == written.end(); });
   }
   files.checkpoint = prefix.string() + ".checkpoint.h5";
   return files;

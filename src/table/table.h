@@ -49,6 +49,7 @@ struct Table {
   // so; nothing where that is not known.
   std::optional<bool> refined;
   Precision precision = Precision::single;  // of the file that it was read from
+  std::string read_as;  // what a file was taken for that does not say it, and why; else empty
 
   // One value (nine for `stored`, row-major) an entry, in the grid's C order.
   std::vector<float> stored;     // S, third column of unit length; M itself with Storage::matrix

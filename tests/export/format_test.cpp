@@ -32,7 +32,7 @@ void add_cube(platform::FileSet& set, const Table& table, const TableFiles& file
            {reinterpret_cast<const char*>(table.stored.data()), 4 * table.stored.size()});
 }
 
-Table read_cube(const TableFiles& files, std::optional<Layout>) {
+Table read_cube(const TableFiles& files, const ReadAs&) {
   std::size_t nodes = 0;
   std::ifstream(files[0]) >> nodes;
   Table table = Table::empty(Grid::paper(nodes), Storage::matrix);
@@ -45,7 +45,7 @@ Table read_cube(const TableFiles& files, std::optional<Layout>) {
 
 Format cubes() {
   return {.name = "Cubes",
-          .endings = {".cube", ".floats"},
+          .sets = {{".cube", ".floats"}},
           .contents = {.albedo = false, .loss = false},
           .limits = limits_of_cubes,
           .read = read_cube,
@@ -63,7 +63,7 @@ TEST(Format, AnAddedOneIsWrittenReadAndNamed) {
     EXPECT_EQ(files_of_table("d/t.floats"), (TableFiles{"d/t.cube", "d/t.floats"}));
     EXPECT_FALSE(contents_of("t.cube").albedo);
     EXPECT_FALSE(is_whole_table("t.cube"));
-    EXPECT_EQ(endings_text(), ".h5, .0.exr, .npy or .cube");
+    EXPECT_EQ(endings_text(), ".h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h or .cube");
     test::expect_one_line(test::message_of<InputError>([] { read_table("t.png"); }),
                           {"t.png", ".2.exr", ".cube, .floats"});
     test::expect_one_line(test::message_of<InputError>([&] {
@@ -92,7 +92,7 @@ TEST(Format, ATableOverBothRoughnessesIsNotWrittenAsOneOverAlphaAndLambda) {
 }
 
 TEST(Format, ThoseShippedSayWhatTheyHold) {
-  EXPECT_EQ(endings_text(), ".h5, .0.exr or .npy");
+  EXPECT_EQ(endings_text(), ".h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js or .h");
   EXPECT_EQ(endings_text(keeps_fits), ".h5");
   EXPECT_EQ(find_format("a.h5.txt"), nullptr);
   EXPECT_TRUE(find_format("a.1.exr")->half);

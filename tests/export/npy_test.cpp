@@ -97,11 +97,11 @@ TEST(Npy, TheSameTableGivesTheSameBytes) {
 TEST(Npy, OtherAxesThanThePapersAreRefused) {
   const TemporaryFolder folder;
   const Format& npy = *find_format("t.npy");
-  EXPECT_EQ(npy.why_not(Grid::paper({3, 1, 5, 4}), Storage::matrix), "");
-  EXPECT_NE(npy.why_not(testing::uneven_grid(), Storage::matrix), "");
+  EXPECT_EQ(npy.why_not(Grid::paper({3, 1, 5, 4}), Storage::matrix, TextureLayout::automatic), "");
+  EXPECT_NE(npy.why_not(testing::uneven_grid(), Storage::matrix, TextureLayout::automatic), "");
   Grid other = Grid::paper();
   other.alpha_min = 1e-3;
-  EXPECT_NE(npy.why_not(other, Storage::matrix), "");
+  EXPECT_NE(npy.why_not(other, Storage::matrix, TextureLayout::automatic), "");
   EXPECT_THROW(write_table(testing::synthetic_table(testing::uneven_grid(), Storage::matrix),
                            folder / "t.npy"),
                InputError);
@@ -221,8 +221,8 @@ TEST(Npy, TheLayoutIsToldBySymmetryOrByTheReader) {
   write_table(testing::synthetic_table(Grid::paper(4), Storage::matrix), folder / "ratio.npy");
   EXPECT_EQ(read_table(folder / "both.npy").grid, both.grid);
   EXPECT_EQ(read_table(folder / "ratio.npy").grid, Grid::paper(4));
-  EXPECT_EQ(read_table(folder / "both.npy", Layout::alpha_lambda).grid, Grid::paper(4));
-  EXPECT_EQ(read_table(folder / "ratio.npy", Layout::alphax_alphay).grid, both.grid);
+  EXPECT_EQ(read_table(folder / "both.npy", {Layout::alpha_lambda}).grid, Grid::paper(4));
+  EXPECT_EQ(read_table(folder / "ratio.npy", {Layout::alphax_alphay}).grid, both.grid);
   // No exchange of axes that differ.
   write_table(testing::synthetic_table(Grid::paper({3, 2, 2, 2}), Storage::matrix),
               folder / "uneven.npy");

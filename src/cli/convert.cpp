@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// ltcfit convert: a table in another format or layout.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/options.h"
+#include "cli/output.h"
+#include "cli/table_input.h"
+#include "core/error.h"
+#include "export/table_file.h"
+
+namespace ltc::cli {
+namespace {
+
+struct Arguments {
+  std::string input, output;
+  std::optional<ReadAs> layout;
+  WriteOptions options;
+};
+
+void add_as_option(CLI::App& app, TextureLayout& layout) {
+  const auto set = [&layout](const std::string& name) {
+    layout = value_named<TextureLayout>(name);
+  };
+  CLI::Option* const option = app.add_option_function<std::string>(
+      "--as", set,
+      "how the values lie in textures [automatic: ltc for isotropic tables of storage inverse, "
+      "volumes for others]");
+  allow_names(option, all_names<TextureLayout>())->option_text("LAYOUT")->group("What to write");
+}
+
+void add_script_option(CLI::App& app, ScriptStyle& style) {
+  const auto set = [&style](const std::string& name) { style = value_named<ScriptStyle>(name); };
+  CLI::Option* const option = app.add_option_function<std::string>(
+      "--script", set,
+      "what a .js is: a module of arrays, or the one that three.js imports [arrays]");
+  allow_names(option, all_names<ScriptStyle>())->option_text("STYLE")->group("What to write");
+}
+
+void convert(const Arguments& arguments, Files& files) {
+  const Table table = read_input(arguments.input, arguments.layout);
+  const NamedSet output = set_of(arguments.output);
+  if (!output.format)
+    throw InputError(fmt::format("-o {}: no suffix of a table; expected {}",
+                                 one_line(arguments.output), endings_text()));
+  const TableFiles written =
+      output.format->files(output.prefix, resolved(arguments.options.layout, table.storage));
+  for (const std::filesystem::path& file : written)
+    files.write("-o", file);
+  write_table(table, arguments.output, arguments.options);
+  std::string text;
+  for (const std::filesystem::path& file : written)
+    text += fmt::format("wrote {}\n", one_line(file.string()));
+  print(text);
+}
+
+}  // namespace
+
+Action declare_convert(CLI::App& app) {
+  const auto arguments = std::make_shared<Arguments>();
+  add_table_argument(app, "TABLE", arguments->input, "table to read");
+  allow(app.add_option("-o,--output", arguments->output,
+                       "file to write, " + endings_text() +
+                           "; where the textures are several files, _1 and _2 or .0, .1 and .2 "
+                           "stand before the ending"),
+        not_empty("a file"))
+      ->required()
+      ->option_text("FILE")
+      ->group("What to write");
+  add_as_option(app, arguments->options.layout);
+  app.add_flag("--half", arguments->options.half, "16-bit values, where the format has them")
+      ->group("What to write");
+  app.add_flag_function(
+         "--no-zstd", [arguments](std::int64_t) { arguments->options.zstd = false; },
+         "leave KTX2 uncompressed")
+      ->group("What to write");
+  add_script_option(app, arguments->options.javascript_style);
+  add_layout_option(app, arguments->layout);
+  return [arguments](Files& files) { convert(*arguments, files); };
+}
+
+}  // namespace ltc::cli

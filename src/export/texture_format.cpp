@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "export/texture_format.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "core/read_file.h"
+#include "core/write_file.h"
+
+namespace ltc {
+namespace {
+
+// The largest texture of a table in text, and more.
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+
+std::vector<std::vector<std::string>> sets_of(const Container& container) {
+  std::vector<std::vector<std::string>> sets;
+  const std::string& ending = container.endings.front();
+  if (container.two_files)
+    sets.push_back({"_1" + ending, "_2" + ending});
+  if (container.three_files)
+    sets.push_back({".0" + ending, ".1" + ending, ".2" + ending});
+  sets.push_back(container.endings);
+  return sets;
+}
+
+std::size_t set_for(const Container& container, TextureLayout layout) {
+  const std::size_t images = image_count(layout);
+  if (images == 2 && container.two_files)
+    return 0;
+  if (images == 3 && container.three_files)
+    return container.two_files ? 1 : 0;
+  return sets_of(container).size() - 1;
+}
+
+// A file beside the first may be missing: tables of matrices alone have one texture.
+std::vector<NamedBytes> read_files(const TableFiles& files, bool one_image_each) {
+  std::vector<NamedBytes> read;
+  std::error_code ignored;
+  for (const std::filesystem::path& file : files)
+    if (&file == &files.front() || !one_image_each || std::filesystem::exists(file, ignored))
+      read.push_back({file, read_whole_file(file, "table", most_bytes)});
+  return read;
+}
+
+std::vector<Image> decode_all(const Container& container, const TableFiles& files) {
+  const bool one_image_each = files.size() > 1 && files.size() != container.endings.size();
+  const std::vector<NamedBytes> read = read_files(files, one_image_each);
+  if (!one_image_each)
+    return container.decode(read);
+  std::vector<Image> images;
+  for (const NamedBytes& file : read)
+    std::ranges::move(container.decode({file}), std::back_inserter(images));
+  return images;
+}
+
+void add(const Container& container, platform::FileSet& set, const Table& table,
+         const TableFiles& files, const WriteOptions& options) {
+  std::vector<Image> images = images_of(table, options.layout);
+  for (Image& image : images)
+    image.precision = options.half ? Precision::half : Precision::single;
+  std::vector<std::string> bytes;
+  if (files.size() == images.size() && images.size() > 1)
+    for (std::size_t i = 0; i < files.size(); ++i)
+      bytes.push_back(container.encode({images[i]}, {files[i]}, options).front());
+  else
+    bytes = container.encode(images, files, options);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    add_file(set, files[i], bytes[i]);
+}
+
+}  // namespace
+
+Format texture_format(const Container& container) {
+  return {.name = container.name,
+          .sets = sets_of(container),
+          .asked = container.asked,
+          .contents = {.albedo = true, .loss = false},
+          .entry_bytes = 12 * sizeof(float),
+          .half = container.half,
+          .ending_of_others = container.ending_of_others,
+          .set_for = [container](TextureLayout layout) { return set_for(container, layout); },
+          .limits = [](const Grid& grid, Storage storage,
+                       TextureLayout layout) { return why_not(layout, grid, storage); },
+          .read =
+              [container](const TableFiles& files, const ReadAs& as) {
+                return table_of(decode_all(container, files), as.textures, files.front());
+              },
+          .add = [container](
+                     platform::FileSet& set, const Table& table, const TableFiles& files,
+                     const WriteOptions& options) { add(container, set, table, files, options); }};
+}
+
+}  // namespace ltc
