@@ -7,13 +7,15 @@
 build_packages=(
   g++ cmake ninja-build git pkg-config
   libeigen3-dev libhdf5-dev libopenexr-dev libhwy-dev libcli11-dev libtomlplusplus-dev
-  libfmt-dev libpng-dev nlohmann-json3-dev
+  libfmt-dev libpng-dev libzstd-dev nlohmann-json3-dev
   libcairo2-dev fonts-dejavu-core libnlopt-cxx-dev libnlopt-dev
   python3-dev python3-numpy pybind11-dev
 )
 # To build the tests; readers, compilers and shells by others, which they check our files and
 # snippets with.
-test_packages=(libgtest-dev libbenchmark-dev hdf5-tools openexr python3-h5py glslang-tools zsh fish)
+test_packages=(
+  libgtest-dev libbenchmark-dev hdf5-tools openexr openscenegraph python3-h5py glslang-tools zsh fish
+)
 
 say() { echo "== $*" >&2; }
 
