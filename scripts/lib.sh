@@ -72,6 +72,15 @@ install_packages() {
     fail "apt-get could not install: ${missing[*]}"
 }
 
+# Readers for Node.js that the tests check our files with: where npm is at hand. Without them, those
+# tests are skipped and say so.
+install_node_readers() {
+  [[ ! -d tests/node_modules ]] && command -v npm >/dev/null || return 0
+  say "installing the tests' packages for Node.js"
+  npm ci --prefix tests --silent --no-audit --no-fund --ignore-scripts ||
+    say "npm could not install them: their tests are skipped"
+}
+
 # Configures and builds a preset, or only the targets named after it; quiet unless it fails.
 build_preset() {
   local preset=$1 targets=("${@:2}") log
