@@ -10,6 +10,9 @@
 #include <cstdint>
 #include <string>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "core/version.h"
 #include "export/dds.h"
 #include "export/files.h"

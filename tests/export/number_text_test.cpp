@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "export/files.h"
 #include "export/images.h"
 #include "support/temporary_directory.h"

@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "export/files.h"
 #include "export/images.h"
 #include "support/temporary_directory.h"
