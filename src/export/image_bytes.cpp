@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "export/file.h"
 
 namespace ltc {
 namespace {
@@ -43,7 +44,7 @@ void require_values(const Image& image) {
 }  // namespace
 
 std::string image_label(const Image& image) {
-  return image.name.empty() ? "image" : fmt::format("image {}", image.name);
+  return image.name.empty() ? "image" : fmt::format("image {}", on_one_line(image.name));
 }
 
 void refuse_file(const std::filesystem::path& file, const std::string& what) {

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "export/file.h"
 #include "export/image_bytes.h"
 #include "export/number_text.h"
 
@@ -212,20 +213,21 @@ float number_of(std::string_view text, std::string_view list, const fs::path& fi
     if (error = std::from_chars(text.data(), end, wide).ec; error == std::errc())
       value = static_cast<float>(wide);
   if (!starts || error != std::errc() || stop != end || !std::isfinite(value))
-    refuse_file(file, fmt::format("list {}: \"{}\"; allowed: a finite number of 32 bits", list,
-                                  shown(text)));
+    refuse_file(file, fmt::format("list {}: \"{}\"; allowed: a finite number of 32 bits",
+                                  on_one_line(std::string(list)), shown(text)));
   return value;
 }
 
 Image image_of_list(const std::string& name, std::vector<float> values,
                     const std::optional<Size>& size, const fs::path& file) {
+  const std::string shown_name = on_one_line(name);
   Image image;
   image.name = name;
   if (size) {
     if (size->size() != 4)
       refuse_file(file, fmt::format("size of {} has {} numbers; allowed: width, height, layers, "
                                     "channels",
-                                    name, size->size()));
+                                    shown_name, size->size()));
     image.width = (*size)[0];
     image.height = (*size)[1];
     image.layers = (*size)[2];
@@ -237,9 +239,9 @@ Image image_of_list(const std::string& name, std::vector<float> values,
     if (values.size() != 4 * image.width * image.width || values.empty())
       refuse_file(file, fmt::format("list {} has {} numbers; allowed without a size: 4 n^2, a "
                                     "square image of 4 channels",
-                                    name, values.size()));
+                                    shown_name, values.size()));
   }
-  const std::string where = fmt::format("{}: list {}", file.string(), name);
+  const std::string where = fmt::format("{}: list {}", file.string(), shown_name);
   require_size(image, where);
   if (values.size() != value_count(image))
     throw InputError(fmt::format("{} has {} numbers; its size asks for {}", where, values.size(),

@@ -90,9 +90,8 @@ class Collector : public nlohmann::json_sax<nlohmann::json> {
                         size == sizes_.end() ? std::nullopt : std::optional(size->second), file_));
     }
     for (const auto& [name, size] : sizes_)
-      if (std::none_of(images.begin(), images.end(),
-                       [&](const Image& image) { return image.name == name; }))
-        refuse_file(file_, fmt::format("it has a size of {}, but no such list", name));
+      if (name == size_key || !seen_.contains({false, name}))
+        refuse_file(file_, fmt::format("it has a size of {}, but no such list", on_one_line(name)));
     if (images.empty())
       refuse_file(file_, "it has no lists; allowed: an object of lists of numbers");
     return images;

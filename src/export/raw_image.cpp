@@ -9,6 +9,7 @@
 
 #include "core/enum_names.h"
 #include "core/error.h"
+#include "export/file.h"
 #include "export/image_bytes.h"
 
 namespace ltc {
@@ -60,13 +61,13 @@ class Description {
     const std::string where = fmt::format("{}: image {}", file_.string(), images_.size());
     Image image;
     image.name = text_at(entry, "name", where);
+    const std::string shape = text_at(entry, "shape", where);
+    const std::string precision = text_at(entry, "precision", where);
     try {
-      image.shape = value_named<ImageShape>(text_at(entry, "shape", where));
-      image.precision = value_named<Precision>(text_at(entry, "precision", where));
+      image.shape = value_named<ImageShape>(shape);
+      image.precision = value_named<Precision>(precision);
     } catch (const InputError& error) {
-      const std::string_view message = error.what();
-      throw InputError(message.starts_with(where) ? std::string(message)
-                                                  : fmt::format("{}: {}", where, message));
+      throw InputError(fmt::format("{}: {}", where, on_one_line(error.what())));
     }
     image.width = number_at_key(entry, "width", where);
     image.height = number_at_key(entry, "height", where);

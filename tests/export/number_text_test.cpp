@@ -211,6 +211,10 @@ TEST(NumberText, OthersWaysOfWritingAreRead) {
 TEST(NumberText, CountsThatAreNotThoseOfTheSizeAreRefused) {
   expect_refusal([] { json(R"({"a":[1,2,3]})"); },
                  "x.json: list a has 3 numbers; allowed without a size: 4 n^2");
+  expect_refusal([] { json(R"({"a\nb":[1]})"); }, "list a b has 1 numbers");
+  expect_refusal([] { json(R"({"a\nb":[1e39]})"); }, "list a b: \"1e39\"");
+  expect_refusal([] { json(R"({"size":{"size":[1,1,1,1]},"a":[1,2,3,4]})"); },
+                 "it has a size of size, but no such list");
   expect_refusal([] { json(R"({"a":[]})"); }, "list a has 0 numbers");
   expect_refusal([] { json(R"({"a":[1,2,3],"size":{"a":[2,1,1,2]}})"); },
                  "list a has 3 numbers; its size asks for 4");

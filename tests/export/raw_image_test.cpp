@@ -103,6 +103,7 @@ TEST(RawImage, OtherFilesAreRefusedByFault) {
       {with("name", nullptr), "has no name"},
       {with("name", 4), "has no name"},
       {with("shape", "cube"), "image 0: shape \"cube\" is unknown; allowed: flat, array, volume"},
+      {with("shape", "cu\nbe"), "shape \"cu be\" is unknown"},
       {with("shape", "flat"), "flat, with 2 layers; allowed: 1"},
       {with("precision", "double"), "precision \"double\" is unknown; allowed: single, half"},
       {with("precision", nullptr), "has no precision; allowed: a text"},
