@@ -7,13 +7,15 @@
 build_packages=(
   g++ cmake ninja-build git pkg-config
   libeigen3-dev libhdf5-dev libopenexr-dev libhwy-dev libcli11-dev libtomlplusplus-dev
-  libfmt-dev libpng-dev nlohmann-json3-dev
+  libfmt-dev libpng-dev libzstd-dev nlohmann-json3-dev
   libcairo2-dev fonts-dejavu-core libnlopt-cxx-dev libnlopt-dev
   python3-dev python3-numpy pybind11-dev
 )
 # To build the tests; readers, compilers and shells by others, which they check our files and
 # snippets with.
-test_packages=(libgtest-dev libbenchmark-dev hdf5-tools openexr python3-h5py glslang-tools zsh fish)
+test_packages=(
+  libgtest-dev libbenchmark-dev hdf5-tools openexr openscenegraph python3-h5py glslang-tools zsh fish
+)
 
 say() { echo "== $*" >&2; }
 
@@ -68,6 +70,15 @@ install_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
     fail "apt-get could not install: ${missing[*]}"
+}
+
+# Readers for Node.js that the tests check our files with: where npm is at hand. Without them, those
+# tests are skipped and say so.
+install_node_readers() {
+  [[ ! -d tests/node_modules ]] && command -v npm >/dev/null || return 0
+  say "installing the tests' packages for Node.js"
+  npm ci --prefix tests --silent --no-audit --no-fund --ignore-scripts ||
+    say "npm could not install them: their tests are skipped"
 }
 
 # Configures and builds a preset, or only the targets named after it; quiet unless it fails.

@@ -195,6 +195,124 @@ def exr_seeds(texture, folder):
         (folder / f"{name}.exr").write_bytes(content)
 
 
+# ---- Textures ----
+
+HALVES = np.arange(2 * 2 * 4, dtype="<f2").tobytes()
+
+
+def dds(values=HALVES, width=2, height=2, depth=1, levels=1, caps=0, dxgi=10, dimension=3, misc=0,
+        layers=1, four_cc=b"DX10"):
+    header = struct.pack("<4s7I44x", b"DDS ", 124, 0x100f, height, width, 8 * width % (1 << 32),
+                         depth, levels)
+    header += struct.pack("<2I4s20x2I12x", 32, 4, four_cc, 0x1000, caps)
+    if four_cc == b"DX10":
+        header += struct.pack("<5I", dxgi, dimension, misc, layers, 0)
+    return header + values
+
+
+def dds_seeds(folder):
+    good = dds()
+    lies = {
+        "good": good,
+        "legacy": dds(four_cc=struct.pack("<I", 113)),
+        "volume": dds(HALVES * 3, depth=3, dimension=4),
+        "cut": good[:140],
+        "no_values": dds(b""),
+        "2_to_32": dds(width=(1 << 32) - 1, height=(1 << 32) - 1, layers=(1 << 32) - 1),
+        "largest_no_values": dds(b"", width=16384, height=3072),
+        "product_wraps": dds(b"", width=1 << 16, height=1 << 16, layers=1 << 31),
+        "zero": dds(b"", width=0),
+        "no_layers": dds(b"", layers=0),
+        "mip_levels": dds(levels=2),
+        "cube": dds(HALVES * 6, misc=4, layers=6),
+        "old_cube": dds(HALVES * 6, caps=0xfe00, four_cc=struct.pack("<I", 113)),
+        "bc7": dds(dxgi=98),
+        "dxt1": dds(four_cc=b"DXT1"),
+    }
+    for name, content in lies.items():
+        (folder / f"{name}.dds").write_bytes(content)
+
+
+def zstd(content, size=None):
+    """A frame of one block that is not compressed, or of as many as it takes of a single byte."""
+    size = len(content) if size is None else size
+    frame = b"\x28\xb5\x2f\xfd\xe0" + struct.pack("<Q", size)
+    if len(content) > 1:
+        return frame + struct.pack("<I", 1 | len(content) << 3)[:3] + content
+    for begin in range(0, size, 1 << 17):
+        length = min(1 << 17, size - begin)
+        frame += struct.pack("<I", (begin + length == size) | 2 | length << 3)[:3] + content
+    return frame
+
+
+def ktx2(level=HALVES, width=2, height=2, depth=0, layers=0, faces=1, levels=1, scheme=0, vk=97,
+         offset=104, length=None, size=len(HALVES), description=(104, 0)):
+    header = b"\xabKTX 20\xbb\r\n\x1a\n"
+    header += struct.pack("<9I", vk, 2, width, height, depth, layers, faces, levels, scheme)
+    header += struct.pack("<4I2Q", *description, 104, 0, 0, 0)
+    length = len(level) if length is None else length
+    return header + struct.pack("<3Q", offset, length, size) + level
+
+
+def ktx2_seeds(folder):
+    good = ktx2()
+    lies = {
+        "good": good,
+        "volume": ktx2(HALVES * 3, depth=3, size=3 * len(HALVES)),
+        "compressed": ktx2(zstd(HALVES), scheme=2),
+        "cut": good[:100],
+        "no_values": ktx2(b""),
+        "offset_of_2_to_64": ktx2(offset=(1 << 64) - 1),
+        "offset_in_the_header": ktx2(offset=0),
+        "length_of_2_to_64": ktx2(length=(1 << 64) - 1),
+        "end_wraps": ktx2(offset=(1 << 64) - 16, length=16 + 104 + len(HALVES)),
+        "size_of_2_to_60": ktx2(size=1 << 60),
+        "descriptor_of_4_gb": ktx2(description=(0xffffffff, 0xffffffff)),
+        "2_to_32": ktx2(width=0xffffffff, height=0xffffffff, layers=0xffffffff),
+        "product_wraps": ktx2(width=1 << 31, height=1 << 31, layers=4, size=0),
+        "array_of_volumes": ktx2(depth=1, layers=1),
+        "cube": ktx2(HALVES * 6, faces=6),
+        "mip_levels": ktx2(levels=2),
+        "basis": ktx2(scheme=1),
+        "rgba8": ktx2(vk=37),
+        "no_frame": ktx2(scheme=2),
+        "frame_of_2_to_60": ktx2(zstd(HALVES, 1 << 60), scheme=2),
+        "frame_too_short": ktx2(zstd(HALVES[1:], len(HALVES)), scheme=2),
+        "frame_too_long": ktx2(zstd(HALVES * 2, len(HALVES)), scheme=2),
+        "two_frames": ktx2(zstd(HALVES) * 2, scheme=2),
+        "bomb": ktx2(zstd(b"\0", 4096 * 4096 * 8), 4096, 4096, scheme=2, size=4096 * 4096 * 8),
+    }
+    for name, content in lies.items():
+        (folder / f"{name}.ktx2").write_bytes(content)
+
+
+def number_seeds(folder):
+    lies = {
+        "good.json": '{"size": {"a": [2, 1, 2, 1]}, "a": [1, -0.0, 1e-5, [65504]]}',
+        "good.js": "// a\nexport const a = [ 1, - 2e-05, .5, 1., ], b = new C('=[1');\nc = [d, 1];",
+        "good.h": "#ifndef A\n/* width 1, height 1, layers 1, channels 2 */\n"
+                  "static const float a[2] = {1.0f, -2e-5f};\nx b[1][4] = {{1, 2, 3, 4}};\n#endif\n",
+        "size_of_2_to_60.json": '{"size": {"a": [%d, %d, 1, 1]}, "a": [1]}' % (1 << 60, 1 << 60),
+        "product_wraps.json": '{"size": {"a": [%d, %d, 1, 1]}, "a": []}' % (1 << 32, 1 << 32),
+        "size_of_2_to_64.h": "/* width %d, height 1, layers 1, channels -1 */ a = {1}" % (1 << 64),
+        "wrong_count.json": '{"size": {"a": [2, 2, 1, 4]}, "a": [1, 2, 3, 4]}',
+        "wrong_count.js": "a = [1, 2, 3]",
+        "nan.json": '{"a": [1, 2, 3, NaN]}',
+        "nan.js": "a = [1, 2, 3, NaN]",
+        "huge.json": '{"a": [1, 2, 3, 1e999]}',
+        "huge.js": "a = [1, 2, 3, 1e39]",
+        "infinite.h": "a = {1, 2, 3, -inf}",
+        "deep.json": '{"a": ' + "[" * 2000,
+        "deep.js": "a = " + "[" * 2000 + "1",
+        "twice.json": '{"a": [1, 2, 3, 4], "a": [1, 2, 3, 4]}',
+        "not_closed.js": "a = [1, 2, 3, 4",
+        "not_closed.h": "a = {1, 2, 3, 4]",
+        "comment_not_closed.js": "a = [1, /* 2, 3, 4]",
+    }
+    for name, content in lies.items():
+        (folder / name).write_text(content)
+
+
 # ---- Text ----
 
 def config_seeds(source, folder):
@@ -283,7 +401,7 @@ def gltf_seeds(folder):
 def main():
     ltcfit, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     source = pathlib.Path(__file__).resolve().parents[2]
-    for reader in ("hdf5", "npy", "exr", "config", "scene", "gltf"):
+    for reader in ("hdf5", "npy", "exr", "config", "scene", "gltf", "dds", "ktx2", "text"):
         (folder / reader).mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as made:
         made_table(ltcfit, made)
@@ -294,6 +412,9 @@ def main():
     config_seeds(source, folder / "config")
     scene_seeds(source, folder / "scene")
     gltf_seeds(folder / "gltf")
+    dds_seeds(folder / "dds")
+    ktx2_seeds(folder / "ktx2")
+    number_seeds(folder / "text")
 
 
 main()

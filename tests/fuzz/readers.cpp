@@ -12,7 +12,10 @@
 #include "core/error.h"
 #include "export/checkpoint.h"
 #include "export/consistency.h"
+#include "export/dds.h"
 #include "export/hdf5_guard.h"
+#include "export/ktx2.h"
+#include "export/number_text.h"
 #include "export/table_file.h"
 #include "scene/coverage.h"
 #include "scene/readers.h"
@@ -105,6 +108,26 @@ void read_gltf_bytes(const fs::path& folder, std::string_view bytes) {
   use(load_gltf_scene(written(folder / "scene.gltf", bytes)));
 }
 
+void use(const Image& image) {
+  if (image.values.empty() || image.values.size() != image.texels() * image.channels)
+    throw std::logic_error("an image of another size than it says");
+}
+
+template <auto decode>
+void read_texture_bytes(const fs::path& folder, std::string_view bytes) {
+  use(decode(bytes, folder / "texture"));
+}
+
+// JSON or a program: the first byte says which.
+void read_number_text(const fs::path& folder, std::string_view text) {
+  const auto images = text.starts_with('{') ? decode_json(text, folder / "numbers.json")
+                                            : decode_number_lists(text, folder / "numbers.js");
+  if (images.empty())
+    throw std::logic_error("a file of nothing");
+  for (const Image& image : images)
+    use(image);
+}
+
 }  // namespace
 
 const Reader& unguarded_hdf5_reader() {
@@ -132,9 +155,15 @@ std::string good_checkpoint(const fs::path& folder) {
 }
 
 const std::vector<Reader>& readers() {
-  static const std::vector<Reader> all = {
-      {"hdf5", read_h5_bytes},       {"npy", read_npy_bytes},          {"exr", read_exr_bytes},
-      {"config", read_config_bytes}, {"scene", read_toml_scene_bytes}, {"gltf", read_gltf_bytes}};
+  static const std::vector<Reader> all = {{"hdf5", read_h5_bytes},
+                                          {"npy", read_npy_bytes},
+                                          {"exr", read_exr_bytes},
+                                          {"config", read_config_bytes},
+                                          {"scene", read_toml_scene_bytes},
+                                          {"gltf", read_gltf_bytes},
+                                          {"dds", read_texture_bytes<decode_dds>},
+                                          {"ktx2", read_texture_bytes<decode_ktx2>},
+                                          {"text", read_number_text}};
   return all;
 }
 

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// Lists of numbers in programs.
+#include "export/number_lists.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "export/file.h"
+#include "export/image_bytes.h"
+#include "export/number_text.h"
+
+namespace ltc {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Size = std::vector<std::uint64_t>;
+
+// Walks over a program of JavaScript or C without understanding it: what counts is NAME = [ or
+// NAME[...] = {, followed by a number.
+class Walker {
+ public:
+  Walker(std::string_view text, const fs::path& file) : text_(text), file_(file) {}
+
+  std::vector<Image> images() {
+    std::vector<Image> found;
+    std::set<std::string> names;
+    std::string name;  // the identifier just passed, as long as it may be what is assigned to
+    while (skip_blanks(), !at_end()) {
+      const char c = peek();
+      if (is_of_identifier(c)) {
+        name = word();
+      } else if (c == '[' && !name.empty()) {
+        skip_to(']');
+      } else if (c == '=' && !name.empty()) {
+        ++at_;
+        skip_blanks();
+        std::vector<float> values;
+        if (list(name, values)) {
+          if (!names.insert(name).second)
+            refuse_file(file_, fmt::format("the list {} stands twice", name));
+          found.push_back(image_of_list(name, std::move(values), size_, file_));
+          size_.reset();
+        }
+        name.clear();
+      } else if (c == '"' || c == '\'' || c == '`') {
+        skip_text();
+        name.clear();
+      } else {
+        ++at_;
+        name.clear();
+      }
+    }
+    if (found.empty())
+      refuse_file(file_, "it has no lists of numbers; allowed: name = [...] or name[...] = {...}");
+    return found;
+  }
+
+ private:
+  bool at_end() const { return at_ >= text_.size(); }
+  char peek() const { return at_end() ? '\0' : text_[at_]; }
+  bool follows(std::string_view what) const { return text_.substr(at_).starts_with(what); }
+
+  // Blanks and comments.
+  void skip_blanks() {
+    while (!at_end())
+      if (std::string_view(" \t\r\n\f\v").find(peek()) != std::string_view::npos)
+        ++at_;
+      else if (follows("//"))
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      else if (follows("/*"))
+        skip_comment();
+      else
+        return;
+  }
+
+  // One of those that our own files have says the size of the list that comes next.
+  void skip_comment() {
+    const std::size_t end = text_.find("*/", at_ + 2);
+    if (end == std::string_view::npos)
+      refuse_file(file_, fmt::format("the comment of line {} does not end", line()));
+    const std::string comment(text_.substr(at_ + 2, std::min<std::size_t>(end - at_ - 2, 200)));
+    unsigned long width = 0, height = 0, layers = 0, channels = 0;
+    if (std::sscanf(comment.c_str(), " width %lu, height %lu, layers %lu, channels %lu", &width,
+                    &height, &layers, &channels) == 4)
+      size_ = Size{width, height, layers, channels};
+    at_ = end + 2;
+  }
+
+  std::string word() {
+    const std::size_t begin = at_;
+    while (is_of_identifier(peek()))
+      ++at_;
+    return std::string(text_.substr(begin, at_ - begin));
+  }
+
+  void skip_to(char end) { at_ = std::min(text_.find(end, at_), text_.size() - 1) + 1; }
+
+  // Text in quotes; one that does not end, such as an apostrophe of another language, ends with its
+  // line.
+  void skip_text() {
+    const char quote = peek();
+    for (++at_; !at_end() && peek() != quote && (quote == '`' || peek() != '\n'); ++at_)
+      at_ += peek() == '\\';
+    ++at_;
+  }
+
+  // The numbers of [ ... ] or { ... }, nested ones too; false if it is no list of numbers at all.
+  bool list(std::string_view name, std::vector<float>& values) {
+    std::string open;          // the brackets still to close
+    bool after_value = false;  // a comma or the end must follow
+    do {
+      skip_blanks();
+      const char c = peek();
+      if (c == '[' || c == '{') {
+        if (after_value)
+          refuse_list(name, "a comma");
+        open += c == '[' ? ']' : '}';
+        ++at_;
+      } else if (open.empty()) {
+        return false;
+      } else if (c == open.back()) {
+        open.pop_back();
+        after_value = true;
+        ++at_;
+      } else if (c == ',' && after_value) {
+        after_value = false;
+        ++at_;
+      } else if (!after_value && starts_number()) {
+        values.push_back(number(name));
+        after_value = true;
+      } else if (values.empty() && !starts_not_finite()) {
+        return false;
+      } else {
+        refuse_list(name, after_value ? "a comma or its end" : "a finite number");
+      }
+    } while (!open.empty());
+    return !values.empty();
+  }
+
+  bool starts_number() const {
+    return is_digit(peek()) || peek() == '.' || peek() == '-' || peek() == '+';
+  }
+
+  bool starts_not_finite() const {
+    return follows("NaN") || follows("NAN") || follows("nan") || follows("Inf") || follows("INF") ||
+           follows("inf");
+  }
+
+  float number(std::string_view name) {
+    const bool negative = peek() == '-';
+    if (negative || peek() == '+') {
+      ++at_;
+      skip_blanks();
+    }
+    const std::size_t begin = at_;
+    const auto of_number = [&] {
+      const bool sign = peek() == '-' || peek() == '+';
+      return is_of_identifier(peek()) || peek() == '.' ||
+             (sign && at_ > begin && (text_[at_ - 1] == 'e' || text_[at_ - 1] == 'E'));
+    };
+    while (of_number())
+      ++at_;
+    std::string_view digits = text_.substr(begin, at_ - begin);
+    if (!digits.empty() && (digits.back() == 'f' || digits.back() == 'F'))
+      digits.remove_suffix(1);
+    const float value = number_of(digits, name, file_);
+    return negative ? -value : value;
+  }
+
+  std::size_t line() const {
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(at_, text_.size()));
+    return 1 + static_cast<std::size_t>(std::count(text_.begin(), end, '\n'));
+  }
+
+  [[noreturn]] void refuse_list(std::string_view name, std::string_view expected) const {
+    const std::string found = at_end() ? "the file ends"
+                              : peek() > ' ' && peek() <= '~'
+                                  ? fmt::format("there is '{}'", peek())
+                                  : fmt::format("there is byte {}", static_cast<int>(peek()) & 255);
+    refuse_file(file_,
+                fmt::format("line {}: {} where the list {} has {}", line(), found, name, expected));
+  }
+
+  std::string_view text_;
+  const fs::path& file_;
+  std::size_t at_ = 0;
+  std::optional<Size> size_;
+};
+
+std::string shown(std::string_view text) {
+  return std::string(text.substr(0, 40)) + (text.size() > 40 ? "..." : "");
+}
+
+}  // namespace
+
+float number_of(std::string_view text, std::string_view list, const fs::path& file) {
+  float value = 0;
+  const char* const end = text.data() + text.size();
+  const bool starts = !text.empty() && (is_digit(text.front()) || text.front() == '.' ||
+                                        text.front() == '-');  // no "inf"
+  auto [stop, error] = std::from_chars(text.data(), end, value);
+  // What is smaller than any float is zero, or the least float.
+  if (double wide = 0; error == std::errc::result_out_of_range)
+    if (error = std::from_chars(text.data(), end, wide).ec; error == std::errc())
+      value = static_cast<float>(wide);
+  if (!starts || error != std::errc() || stop != end || !std::isfinite(value))
+    refuse_file(file, fmt::format("list {}: \"{}\"; allowed: a finite number of 32 bits",
+                                  on_one_line(std::string(list)), shown(text)));
+  return value;
+}
+
+Image image_of_list(const std::string& name, std::vector<float> values,
+                    const std::optional<Size>& size, const fs::path& file) {
+  const std::string shown_name = on_one_line(name);
+  Image image;
+  image.name = name;
+  if (size) {
+    if (size->size() != 4)
+      refuse_file(file, fmt::format("size of {} has {} numbers; allowed: width, height, layers, "
+                                    "channels",
+                                    shown_name, size->size()));
+    image.width = (*size)[0];
+    image.height = (*size)[1];
+    image.layers = (*size)[2];
+    image.channels = (*size)[3];
+    image.shape = image.layers == 1 ? ImageShape::flat : ImageShape::array;
+  } else {
+    image.width = image.height =
+        static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(values.size()) / 4)));
+    if (values.size() != 4 * image.width * image.width || values.empty())
+      refuse_file(file, fmt::format("list {} has {} numbers; allowed without a size: 4 n^2, a "
+                                    "square image of 4 channels",
+                                    shown_name, values.size()));
+  }
+  const std::string where = fmt::format("{}: list {}", file.string(), shown_name);
+  require_size(image, where);
+  if (values.size() != value_count(image))
+    throw InputError(fmt::format("{} has {} numbers; its size asks for {}", where, values.size(),
+                                 value_count(image)));
+  image.values = std::move(values);
+  return image;
+}
+
+std::vector<Image> decode_number_lists(std::string_view text, const fs::path& file) {
+  return Walker(text, file).images();
+}
+
+}  // namespace ltc

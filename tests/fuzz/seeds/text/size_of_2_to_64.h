@@ -1,0 +1,1 @@
+/* width 18446744073709551616, height 1, layers 1, channels -1 */ a = {1}
