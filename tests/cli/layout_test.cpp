@@ -88,7 +88,7 @@ TEST(LayoutOfArrays, IsWhatTheOptionSays) {
   EXPECT_NE(ratio.out.find("alpha_x 0.333, alpha_y 0.667"), std::string::npos) << ratio.out;
   for (const char* command : {"validate", "render"})
     expect_refused({command, "t.npy", "--layout", "both"}, 2,
-                   {"--layout", "both", "alpha-lambda or alphax-alphay"});
+                   {"--layout", "both", "alpha-lambda, alphax-alphay, ltc"});
   expect_refused({"diff", "a.npy", "b.npy", "--layout", ""}, 2, {"--layout"});
 }
 

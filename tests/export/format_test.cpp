@@ -21,7 +21,7 @@ namespace {
 
 // What is interpolated as plain floats in one file, the number of nodes in another; cubes of
 // matrices alone.
-std::string limits_of_cubes(const Grid& grid, Storage) {
+std::string limits_of_cubes(const Grid& grid, Storage, TextureLayout) {
   return grid == Grid::paper(grid.alpha.size()) ? "" : "holds cubes only";
 }
 
