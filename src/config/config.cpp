@@ -48,7 +48,7 @@ void check_together(const Draft& draft, const config::Sources& sources) {
       &OutputSettings::raw,  &OutputSettings::javascript, &OutputSettings::c_header};
   if (std::ranges::none_of(formats, [&](bool OutputSettings::*format) { return output.*format; }))
     throw InputError(
-        fmt::format("{}: no format of [output] is true; expected at least one, such as output.hdf5",
+        fmt::format("{}: no format of [output] is true; expected at least one true, such as output.hdf5",
                     config::latest_source(sources, {"output.hdf5", "output.exr", "output.npy"})));
   const FitSettings& fit = draft.config.fit;
   if (fit.sgd.lattice_samples && fit.target == TargetKind::rejection)

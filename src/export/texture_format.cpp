@@ -61,7 +61,7 @@ void add(const Container& container, platform::FileSet& set, const Table& table,
   for (Image& image : images)
     image.precision = options.half ? Precision::half : Precision::single;
   std::vector<std::string> bytes;
-  if (files.size() == images.size() && images.size() > 1)
+  if (container.endings.size() == 1 && files.size() == images.size() && images.size() > 1)
     for (std::size_t i = 0; i < files.size(); ++i)
       bytes.push_back(container.encode({images[i]}, {files[i]}, options).front());
   else
