@@ -64,7 +64,7 @@ DAMAGES = {
     "version_2": with_attribute("format_version", 2),
     "version_is_text": with_attribute("format_version", "1"),
     "version_is_list": with_attribute("format_version", np.array([1, 1])),
-    "unknown_storage": with_attribute("storage", "inverse"),
+    "unknown_storage": with_attribute("storage", "cholesky"),
     "unknown_warp": lambda f: f["axis/theta"].attrs.__setitem__("warp", "cubic"),
     "no_warp": lambda f: f["axis/theta"].attrs.__delitem__("warp"),
     "seed_is_signed": with_attribute("seed", np.int64(1)),

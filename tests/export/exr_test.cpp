@@ -378,7 +378,7 @@ TEST(Exr, HeadersThatDisagreeAreRefusedByFileAndFault) {
       {"ltc:warp is missing", without("ltc:warp")},
       {"ltc:axes or ltc:warp:", text("ltc:warp", "{}")},
       {"ltc:storage is missing", without("ltc:storage")},
-      {"storage \"inverse\" is unknown", text("ltc:storage", "inverse")},
+      {"storage \"cholesky\" is unknown", text("ltc:storage", "cholesky")},
       {"alpha_min or ltc:refined differ from those of file 0", text("ltc:storage", "matrix")},
       {"ltc:alpha_min is missing", without("ltc:alpha_min")},
       {"ltc:refined is 2; allowed: 0 and 1",

@@ -194,7 +194,7 @@ TEST(Hdf5, DamagedFilesAreRefusedByNameAndFault) {
       {"version_2", "format_version is 2; allowed: 1"},
       {"version_is_text", "format_version of / has another type"},
       {"version_is_list", "format_version of / is not a single value"},
-      {"unknown_storage", "storage \"inverse\" is unknown"},
+      {"unknown_storage", "storage \"cholesky\" is unknown"},
       {"unknown_warp", "axis/theta: warp \"cubic\" is unknown"},
       {"no_warp", "attribute warp of axis/theta is missing"},
       {"seed_is_signed", "seed of / has another type than u64"},
