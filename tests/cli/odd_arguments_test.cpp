@@ -160,7 +160,7 @@ TEST_F(OddArguments, OfGenerate) {
       {"generate --set fit.seed=nan", 2, "fit.seed = nan"},
       {"generate --set fit.sead=1", 2, "did you mean fit.seed?"},
       {"generate --set table.alpha.nodes=1e9", 2, "[1, 64]"},
-      {"generate --set table.theta.last_degrees=90", 2, "[0, 90)"},
+      {"generate --set table.theta.last_degrees=90.1", 2, "[0, 90]"},
       {"generate --set table.alpha.first=1", 2, "table.alpha.first = 1"},
       {"generate --set output.name=../T", 2, "a file name"},
       {"generate --set output.name=-x", 2, "a file name"},
