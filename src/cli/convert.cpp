@@ -21,25 +21,6 @@ struct Arguments {
   WriteOptions options;
 };
 
-void add_as_option(CLI::App& app, TextureLayout& layout) {
-  const auto set = [&layout](const std::string& name) {
-    layout = value_named<TextureLayout>(name);
-  };
-  CLI::Option* const option = app.add_option_function<std::string>(
-      "--as", set,
-      "how the values lie in textures [automatic: ltc for isotropic tables of storage inverse, "
-      "volumes for others]");
-  allow_names(option, all_names<TextureLayout>())->option_text("LAYOUT")->group("What to write");
-}
-
-void add_script_option(CLI::App& app, ScriptStyle& style) {
-  const auto set = [&style](const std::string& name) { style = value_named<ScriptStyle>(name); };
-  CLI::Option* const option = app.add_option_function<std::string>(
-      "--script", set,
-      "what a .js is: a module of arrays, or the one that three.js imports [arrays]");
-  allow_names(option, all_names<ScriptStyle>())->option_text("STYLE")->group("What to write");
-}
-
 void convert(const Arguments& arguments, Files& files) {
   const Table table = read_input(arguments.input, arguments.layout);
   const NamedSet output = set_of(arguments.output);
@@ -70,14 +51,21 @@ Action declare_convert(CLI::App& app) {
       ->required()
       ->option_text("FILE")
       ->group("What to write");
-  add_as_option(app, arguments->options.layout);
+  add_names_option(app, "--as", arguments->options.layout,
+                   "how the values lie in textures [automatic: ltc for isotropic tables of storage "
+                   "inverse, volumes for others]")
+      ->option_text("LAYOUT")
+      ->group("What to write");
   app.add_flag("--half", arguments->options.half, "16-bit values, where the format has them")
       ->group("What to write");
   app.add_flag_function(
          "--no-zstd", [arguments](std::int64_t) { arguments->options.zstd = false; },
          "leave KTX2 uncompressed")
       ->group("What to write");
-  add_script_option(app, arguments->options.javascript_style);
+  add_names_option(app, "--script", arguments->options.javascript_style,
+                   "what a .js is: a module of arrays, or the one that three.js imports [arrays]")
+      ->option_text("STYLE")
+      ->group("What to write");
   add_layout_option(app, arguments->layout);
   return [arguments](Files& files) { convert(*arguments, files); };
 }

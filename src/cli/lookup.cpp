@@ -23,10 +23,6 @@ struct Arguments {
 
 constexpr std::size_t most_query_bytes = std::size_t{1} << 28;
 
-bool ends_in(const std::string& file, std::string_view ending) {
-  return file.ends_with(ending);
-}
-
 void lookup(const Arguments& arguments) {
   const Table table = read_input(arguments.table, arguments.layout);
   const std::vector<Lobe> queries =
@@ -38,8 +34,8 @@ void lookup(const Arguments& arguments) {
   if (arguments.output.empty())
     print(look_ups_csv(queries, found));
   else
-    write_file(arguments.output, ends_in(arguments.output, ".npy") ? look_ups_npy(queries, found)
-                                 : ends_in(arguments.output, ".json")
+    write_file(arguments.output, arguments.output.ends_with(".npy") ? look_ups_npy(queries, found)
+                                 : arguments.output.ends_with(".json")
                                      ? look_ups_json(queries, found)
                                      : look_ups_csv(queries, found));
 }
@@ -59,7 +55,7 @@ Action declare_lookup(CLI::App& app) {
                           "standard output")
             ->group("What to write"),
         {"a file that ends in .csv, .npy or .json", [](std::string& file) {
-           return ends_in(file, ".csv") || ends_in(file, ".npy") || ends_in(file, ".json");
+           return file.ends_with(".csv") || file.ends_with(".npy") || file.ends_with(".json");
          }});
   add_layout_option(app, arguments->layout);
   return [arguments](Files&) { lookup(*arguments); };

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "config/config.h"
+#include "core/enum_names.h"
 #include "core/range.h"
 
 namespace ltc::cli {
@@ -36,6 +37,16 @@ CLI::Option* allow(CLI::Option* option, Allowed allowed);
 
 // Likewise all but these names.
 CLI::Option* allow_names(CLI::Option* option, const std::vector<std::string>& names);
+
+// One that takes the names of an enum.
+template <Named Enum>
+CLI::Option* add_names_option(CLI::App& app, const std::string& name, Enum& value,
+                              const std::string& what) {
+  return allow_names(
+      app.add_option_function<std::string>(
+          name, [&value](const std::string& text) { value = value_named<Enum>(text); }, what),
+      all_names<Enum>());
+}
 
 // ---- Files ----
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "export/file.h"
 
 namespace ltc {
 namespace {
@@ -20,10 +21,6 @@ static_assert(max_nodes_per_axis * max_nodes_per_axis * max_nodes_per_axis * max
                       bytes_per_entry <
                   std::size_t{2} << 30,
               "the bound on the nodes of an axis keeps every table below 2 GiB");
-
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-  throw InputError(fmt::format("{}: {}", file.string(), what));
-}
 
 // What is wrong with an axis whose values may lie in [least, most]; empty if nothing is.
 std::string fault(const Axis& axis, double least, double most) {
@@ -58,9 +55,9 @@ void require_consistent(const Grid& grid, const std::filesystem::path& file) {
   const std::array<double, 4> most = {largest_float, 1, quarter_turn, quarter_turn};
   for (std::size_t i = 0; i < Grid::axis_count; ++i)
     if (const std::string what = fault(grid.axis(i), 0, most[i]); !what.empty())
-      refuse(file, fmt::format("axis {}: {}", grid.axis_names()[i], what));
+      refuse_file(file, fmt::format("axis {}: {}", grid.axis_names()[i], what));
   if (!(grid.alpha_min > 0 && std::isfinite(grid.alpha_min)))
-    refuse(file, fmt::format("alpha_min is {}; it must be positive", grid.alpha_min));
+    refuse_file(file, fmt::format("alpha_min is {}; it must be positive", grid.alpha_min));
 }
 
 void require_shapes(const Table& table, const std::filesystem::path& file) {
@@ -68,7 +65,7 @@ void require_shapes(const Table& table, const std::filesystem::path& file) {
   const std::size_t entries = table.grid.size();
   const auto require = [&](std::string_view name, std::size_t size, std::size_t expected) {
     if (size != expected)
-      refuse(file, fmt::format("{} has {} values; the axes ask for {}", name, size, expected));
+      refuse_file(file, fmt::format("{} has {} values; the axes ask for {}", name, size, expected));
   };
   require("matrix", table.stored.size(), 9 * entries);
   require("amplitude", table.amplitude.size(), entries);
@@ -81,15 +78,16 @@ void require_shapes(const Table& table, const std::filesystem::path& file) {
 void require_consistent(const Table& table, const std::filesystem::path& file) {
   require_shapes(table, file);
   if (table.storage == Storage::inverse && !is_isotropic(table.grid))
-    refuse(file, "storage is inverse, yet lambda = 1 and phi = 0 are not its only nodes");
+    refuse_file(file, "storage is inverse, yet lambda = 1 and phi = 0 are not its only nodes");
   for (std::size_t i = 0; i < table.grid.size(); ++i) {
     const auto first = table.stored.begin() + static_cast<std::ptrdiff_t>(9 * i);
     if (has_values(table.status[i]) &&
         !std::all_of(first, first + 9, [](float value) { return std::isfinite(value); })) {
-      refuse(file, fmt::format("matrix of entry ({}) is not finite, yet its status is {}; only a "
-                               "skipped (0) or failed (4) entry has none",
-                               fmt::join(table.grid.indices(i), ", "),
-                               static_cast<int>(table.status[i])));
+      refuse_file(
+          file,
+          fmt::format("matrix of entry ({}) is not finite, yet its status is {}; only a "
+                      "skipped (0) or failed (4) entry has none",
+                      fmt::join(table.grid.indices(i), ", "), static_cast<int>(table.status[i])));
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "export/entry_channels.h"
 #include "export/format.h"
 
 namespace ltc {
@@ -18,19 +19,13 @@ Table read_exr(const TableFiles& files, const ReadAs& as);
 namespace exr_layout {
 
 inline constexpr int version = 1;  // of ltc:format_version
-inline constexpr int files = 3;
-inline constexpr std::size_t channels_per_file = 4;
+inline constexpr int files = texels_per_entry;
+inline constexpr std::size_t channels_per_file = channels_per_texel;
 inline constexpr std::array<const char*, channels_per_file> channel_names = {"R", "G", "B", "A"};
 
 // What R, G, B and A of each file hold, as in the attribute ltc:channels.
 inline constexpr std::array<std::string_view, files> channel_contents = {
     "m00,m01,m02,m10", "m11,m12,m20,m21", "m22,amplitude,fresnel,0"};
-
-// The values of an entry in the order of the channels of all files: nine of the matrix by rows,
-// then these, then a zero.
-inline constexpr std::size_t amplitude_channel = 9;
-inline constexpr std::size_t fresnel_channel = 10;
-inline constexpr std::size_t values_per_entry = 11;
 
 struct Size {
   std::size_t width, height;

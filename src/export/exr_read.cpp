@@ -164,15 +164,6 @@ std::vector<float> read_pixels(Imf::InputFile& file, const Grid& grid) {
   return pixels;
 }
 
-void take_value(Table& table, std::size_t entry, std::size_t channel, float value) {
-  if (channel < amplitude_channel)
-    table.stored[9 * entry + channel] = value;
-  else if (channel == amplitude_channel)
-    table.amplitude[entry] = value;
-  else if (channel == fresnel_channel)
-    table.fresnel[entry] = value;
-}
-
 void take_pixels(Table& table, std::size_t index, const std::vector<float>& pixels,
                  const fs::path& path) {
   for (std::size_t entry = 0; entry < table.grid.size(); ++entry) {
@@ -181,7 +172,7 @@ void take_pixels(Table& table, std::size_t index, const std::vector<float>& pixe
       if (!std::isfinite(first[channel]))
         refuse(path, fmt::format("channel {} is not finite at pixel {}", channel_names[channel],
                                  pixel(table.grid, entry)));
-      take_value(table, entry, channels_per_file * index + channel, first[channel]);
+      set_channel_value(table, entry, channels_per_file * index + channel, first[channel]);
     }
   }
 }

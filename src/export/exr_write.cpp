@@ -14,7 +14,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,14 +36,6 @@ using namespace exr_layout;
 // Pixels of one file, R, G, B, A interleaved.
 using Pixels = std::vector<float>;
 
-float value_of(const Table& table, std::size_t entry, std::size_t channel) {
-  if (channel < amplitude_channel)
-    return table.stored[9 * entry + channel];
-  if (channel == amplitude_channel)
-    return table.amplitude[entry];
-  return channel == fresnel_channel ? table.fresnel[entry] : 0.0f;
-}
-
 void require_storable(const Table& table, std::size_t entry, float value, float largest,
                       const fs::path& file) {
   if (std::abs(value) <= largest)
@@ -56,14 +47,14 @@ void require_storable(const Table& table, std::size_t entry, float value, float 
 
 std::array<Pixels, files> gather_pixels(const Table& table, const TableFiles& paths, bool half) {
   const std::vector<std::size_t> source = nearest_fitted(table);
-  const float largest = half ? 65504.0f : std::numeric_limits<float>::max();
+  const float largest = largest_value(half ? Precision::half : Precision::single);
   std::array<Pixels, files> pixels;
   for (std::size_t file = 0; file < pixels.size(); ++file) {
     pixels[file].resize(channels_per_file * table.grid.size());
     for (std::size_t entry = 0; entry < source.size(); ++entry) {
       float* const first = &pixels[file][channels_per_file * pixel(table.grid, entry)];
       for (std::size_t channel = 0; channel < channels_per_file; ++channel) {
-        first[channel] = value_of(table, source[entry], channels_per_file * file + channel);
+        first[channel] = channel_value(table, source[entry], channels_per_file * file + channel);
         require_storable(table, source[entry], first[channel], largest, paths[file]);
       }
     }

@@ -39,6 +39,10 @@ std::uintmax_t require_readable(const fs::path& path) {
   return size;
 }
 
+void refuse_file(const fs::path& file, const std::string& what) {
+  throw InputError(fmt::format("{}: {}", file.string(), what));
+}
+
 std::string on_one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');

@@ -13,6 +13,9 @@ namespace ltc {
 // reason for one that is missing, a folder, or not readable.
 std::uintmax_t require_readable(const std::filesystem::path& path);
 
+// Throws InputError: "FILE: what is wrong with it".
+[[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& what);
+
 // The same text with line breaks as spaces: messages of other libraries run over several lines.
 std::string on_one_line(std::string text);
 

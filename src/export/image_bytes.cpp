@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,18 +16,13 @@
 namespace ltc {
 namespace {
 
-std::size_t bytes_per_value(Precision precision) {
-  return precision == Precision::half ? 2 : 4;
-}
-
 std::string name_of_format(const TexelFormat& format) {
   return fmt::format("{}{}F", std::string_view("RGBA").substr(0, format.channels),
                      8 * bytes_per_value(format.precision));
 }
 
 void require_values(const Image& image) {
-  const bool half = image.precision == Precision::half;
-  const float largest = half ? 65504.0f : std::numeric_limits<float>::max();
+  const float largest = largest_value(image.precision);
   const auto bad = std::find_if(image.values.begin(), image.values.end(),
                                 [=](float value) { return !(std::abs(value) <= largest); });
   if (bad == image.values.end())
@@ -38,17 +32,13 @@ void require_values(const Image& image) {
   throw InputError(fmt::format(
       "{}: channel {} of texel ({}, {}) in layer {} is {}; {} bits hold finite values up to {}",
       image_label(image), at % image.channels, texel % image.width, row % image.height,
-      row / image.height, *bad, half ? 16 : 32, largest));
+      row / image.height, *bad, 8 * bytes_per_value(image.precision), largest));
 }
 
 }  // namespace
 
 std::string image_label(const Image& image) {
   return image.name.empty() ? "image" : fmt::format("image {}", on_one_line(image.name));
-}
-
-void refuse_file(const std::filesystem::path& file, const std::string& what) {
-  throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
 void require_size(const Image& image, std::string_view where) {
@@ -73,6 +63,10 @@ void require_storable(const Image& image) {
                                  image_label(image), image.values.size(), image.width, image.height,
                                  image.layers, image.channels, value_count(image)));
   require_values(image);
+}
+
+std::size_t bytes_per_value(Precision precision) {
+  return precision == Precision::half ? 2 : 4;
 }
 
 std::size_t value_count(const Image& image) {

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "export/file.h"
 #include "export/image.h"
 
 namespace ltc {
@@ -35,8 +36,6 @@ void put_number(std::string& bytes, std::size_t offset, T value) {
 // "image ltc_1", as messages call it.
 std::string image_label(const Image& image);
 
-[[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& what);
-
 // Width, height, layers and channels, all of them allowed and with no more values than allowed;
 // otherwise InputError, which begins with `where`: the file or the image.
 void require_size(const Image& image, std::string_view where);
@@ -44,6 +43,7 @@ void require_size(const Image& image, std::string_view where);
 // Also as many values as the size asks for, all of them finite and none beyond the precision.
 void require_storable(const Image& image);
 
+std::size_t bytes_per_value(Precision precision);
 std::size_t value_count(const Image& image);
 std::size_t byte_count(const Image& image);
 

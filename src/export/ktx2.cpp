@@ -42,10 +42,6 @@ bool may_expand(std::size_t compressed, std::size_t expanded) {
   return expanded <= std::size_t{64} << 20 || expanded / 256 <= compressed;
 }
 
-std::size_t value_size(const Image& image) {
-  return image.precision == Precision::half ? 2 : 4;
-}
-
 template <class T>
 void append(std::string& bytes, T value) {
   bytes.resize(bytes.size() + sizeof value);
@@ -64,10 +60,11 @@ std::string description_of(const Image& image) {
   append(bytes, static_cast<std::uint16_t>(block));
   bytes += {color_model_rgbsda, primaries_bt709, transfer_linear, 0};
   append(bytes, std::uint32_t{0});  // blocks of one texel
-  append(bytes, static_cast<std::uint64_t>(image.channels * value_size(image)));  // one plane
+  append(bytes, static_cast<std::uint64_t>(image.channels *
+                                           bytes_per_value(image.precision)));  // one plane
   for (std::size_t channel = 0; channel < image.channels; ++channel) {
-    append(bytes, static_cast<std::uint16_t>(8 * value_size(image) * channel));
-    append(bytes, static_cast<std::uint8_t>(8 * value_size(image) - 1));
+    append(bytes, static_cast<std::uint16_t>(8 * bytes_per_value(image.precision) * channel));
+    append(bytes, static_cast<std::uint8_t>(8 * bytes_per_value(image.precision) - 1));
     append(bytes, static_cast<std::uint8_t>(channel_ids[channel] | float_signed));
     append(bytes, std::uint32_t{0});
     append(bytes, -1.0f);
@@ -138,8 +135,9 @@ class Input {
   Image size() const {
     const TexelFormat& format = format_coded(field(at::vk_format), vk_formats, "vkFormat", file_);
     Image image = image_of(format);
-    const std::string type_size = std::to_string(value_size(image));
-    require(field(at::type_size) == value_size(image), at::type_size, "typeSize", type_size);
+    const std::string type_size = std::to_string(bytes_per_value(image.precision));
+    require(field(at::type_size) == bytes_per_value(image.precision), at::type_size, "typeSize",
+            type_size);
     require(field(at::faces) == 1, at::faces, "number of faces", "1: 2-D, arrays, 3-D");
     require(field(at::levels) <= 1, at::levels, "number of mip levels", "1");
     const std::uint32_t scheme = field(at::scheme);
@@ -208,7 +206,7 @@ std::string encode_ktx2(const Image& image, bool zstd) {
   };
   bytes.replace(0, identifier.size(), identifier);
   put(at::vk_format, format.code);
-  put(at::type_size, value_size(image));
+  put(at::type_size, bytes_per_value(image.precision));
   put(at::width, image.width);
   put(at::height, image.height);
   put(at::depth, image.shape == ImageShape::volume ? image.layers : 0);
@@ -229,7 +227,8 @@ std::string encode_ktx2(const Image& image, bool zstd) {
       level = std::move(small);
     }
   if (bytes[at::scheme] == scheme_none)  // aligned to texels and to four bytes
-    while (bytes.size() % std::lcm(image.channels * value_size(image), std::size_t{4}))
+    while (bytes.size() %
+           std::lcm(image.channels * bytes_per_value(image.precision), std::size_t{4}))
       bytes += '\0';
   put_number(bytes, at::level_offset, std::uint64_t{bytes.size()});
   put_number(bytes, at::level_length, std::uint64_t{level.size()});

@@ -13,8 +13,8 @@
 #include <optional>
 
 #include "core/angle.h"
-#include "core/error.h"
 #include "core/range.h"
+#include "export/file.h"
 #include "export/npy_header.h"
 
 namespace ltc {
@@ -61,7 +61,7 @@ class QueryReader {
         lobes.push_back(lobe_of(cells_of(line), number));
     }
     if (alpha_x_.name.empty())
-      refuse("no line; expected one that names alpha_x, alpha_y, theta and phi");
+      refuse_file(file_, "no line; expected one that names alpha_x, alpha_y, theta and phi");
     return lobes;
   }
 
@@ -72,10 +72,6 @@ class QueryReader {
     double unit = 1;
   };
 
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError(fmt::format("{}: {}", file_.string(), what));
-  }
-
   Column column(const std::vector<std::string_view>& names, const std::string& name,
                 bool angle) const {
     for (const auto& [wanted, unit] :
@@ -83,7 +79,8 @@ class QueryReader {
       if (const auto found = std::ranges::find(names, wanted);
           found != names.end() && (angle || unit == 1))
         return {wanted, static_cast<std::size_t>(found - names.begin()), unit};
-    refuse(
+    refuse_file(
+        file_,
         fmt::format("its first line names no column {}{}; expected alpha_x, alpha_y, theta and "
                     "phi in radians, or theta_degrees and phi_degrees",
                     name, angle ? " or " + name + "_degrees" : ""));
@@ -103,8 +100,10 @@ class QueryReader {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number) ||
         !allowed.contains(number * column.unit))
-      refuse(fmt::format("line {}: {} is \"{}\"; allowed: {}", line, column.name, text,
-                         Range{allowed.least / column.unit, allowed.most / column.unit}.text()));
+      refuse_file(
+          file_,
+          fmt::format("line {}: {} is \"{}\"; allowed: {}", line, column.name, text,
+                      Range{allowed.least / column.unit, allowed.most / column.unit}.text()));
     return number * column.unit;
   }
 

@@ -34,15 +34,11 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr std::size_t max_header_bytes = 4096;  // NumPy's own takes 128
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& what) {
-  throw InputError(fmt::format("{}: {}", path.string(), what));
-}
-
 // Exactly `count` bytes, or InputError.
 std::string take(std::ifstream& file, std::size_t count, const fs::path& path) {
   std::string bytes(count, '\0');
   if (!file.read(bytes.data(), static_cast<std::streamsize>(count)))
-    refuse(path, "cut short in the header of the array");
+    refuse_file(path, "cut short in the header of the array");
   return bytes;
 }
 
@@ -50,16 +46,16 @@ std::string take(std::ifstream& file, std::size_t count, const fs::path& path) {
 std::string read_dictionary(std::ifstream& file, const fs::path& path) {
   const std::string start = take(file, npy_magic.size() + 2, path);
   if (!start.starts_with(npy_magic))
-    refuse(path, "no NumPy array: it does not start with \\x93NUMPY");
+    refuse_file(path, "no NumPy array: it does not start with \\x93NUMPY");
   const int major = start[npy_magic.size()];
   if (major < 1 || major > 3)
-    refuse(path, fmt::format("NumPy format version is {}; allowed: 1 to 3", major));
+    refuse_file(path, fmt::format("NumPy format version is {}; allowed: 1 to 3", major));
   std::size_t length = 0;
   const std::string digits = take(file, major == 1 ? 2 : 4, path);
   for (std::size_t i = 0; i < digits.size(); ++i)
     length |= std::size_t{static_cast<unsigned char>(digits[i])} << (8 * i);
   if (length > max_header_bytes)
-    refuse(path, fmt::format("header of {} bytes; allowed: {}", length, max_header_bytes));
+    refuse_file(path, fmt::format("header of {} bytes; allowed: {}", length, max_header_bytes));
   return take(file, length, path);
 }
 
@@ -69,12 +65,12 @@ std::string_view entry_of(std::string_view dictionary, std::string_view key, std
   const std::string quoted = fmt::format("'{}':", key);
   const std::size_t found = dictionary.find(quoted);
   if (found == std::string_view::npos)
-    refuse(path, fmt::format("the array's header has no {}", key));
+    refuse_file(path, fmt::format("the array's header has no {}", key));
   std::string_view rest = dictionary.substr(found + quoted.size());
   rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
   const std::size_t end = rest.find_first_of(ends);
   if (end == std::string_view::npos)
-    refuse(path, fmt::format("the array's header is malformed at {}", key));
+    refuse_file(path, fmt::format("the array's header is malformed at {}", key));
   return rest.substr(0, end);
 }
 
@@ -82,13 +78,13 @@ std::string_view entry_of(std::string_view dictionary, std::string_view key, std
 std::vector<std::size_t> parse_shape(std::string_view text, const fs::path& path) {
   std::vector<std::size_t> shape;
   if (!text.starts_with('('))
-    refuse(path, "the shape of the array is no tuple");
+    refuse_file(path, "the shape of the array is no tuple");
   text.remove_prefix(1);
   while (!text.empty()) {
     std::size_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc())
-      refuse(path, "the shape of the array is no tuple of whole numbers");
+      refuse_file(path, "the shape of the array is no tuple of whole numbers");
     shape.push_back(value);
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     text.remove_prefix(std::min(text.find_first_not_of(", "), text.size()));
@@ -98,16 +94,17 @@ std::vector<std::size_t> parse_shape(std::string_view text, const fs::path& path
 
 Grid read_grid(std::string_view dictionary, const fs::path& path) {
   if (const auto type = entry_of(dictionary, "descr", ",}", path); type != "'<f4'")
-    refuse(path, fmt::format("type of the array is {}; allowed: '<f4'", type));
+    refuse_file(path, fmt::format("type of the array is {}; allowed: '<f4'", type));
   if (const auto order = entry_of(dictionary, "fortran_order", ",}", path); order != "False")
-    refuse(path, fmt::format("fortran_order of the array is {}; allowed: False", order));
+    refuse_file(path, fmt::format("fortran_order of the array is {}; allowed: False", order));
   const auto shape = parse_shape(entry_of(dictionary, "shape", ")", path), path);
   const bool nodes_allowed = std::all_of(
       shape.begin(), shape.end(), [](std::size_t n) { return n >= 1 && n <= max_nodes_per_axis; });
   if (shape.size() != 6 || !nodes_allowed || shape[4] != 3 || shape[5] != 3)
-    refuse(path, fmt::format("shape of the array is ({}); allowed: (Nalpha, Nlambda, Ntheta, Nphi, "
-                             "3, 3) with 1 to {} nodes each",
-                             fmt::join(shape, ", "), max_nodes_per_axis));
+    refuse_file(path,
+                fmt::format("shape of the array is ({}); allowed: (Nalpha, Nlambda, Ntheta, Nphi, "
+                            "3, 3) with 1 to {} nodes each",
+                            fmt::join(shape, ", "), max_nodes_per_axis));
   return Grid::paper({shape[0], shape[1], shape[2], shape[3]});
 }
 
@@ -117,8 +114,8 @@ Table read_matrices(std::ifstream& file, std::uintmax_t file_bytes, const Grid& 
   const std::uintmax_t header_bytes = static_cast<std::uintmax_t>(file.tellg());
   const std::uintmax_t value_bytes = 9 * grid.size() * sizeof(float);
   if (file_bytes != header_bytes + value_bytes)
-    refuse(path, fmt::format("{} bytes long; its shape asks for {}", file_bytes,
-                             header_bytes + value_bytes));
+    refuse_file(path, fmt::format("{} bytes long; its shape asks for {}", file_bytes,
+                                  header_bytes + value_bytes));
   Table table = Table::empty(grid, Storage::matrix);
   if (!file.read(reinterpret_cast<char*>(table.stored.data()),
                  static_cast<std::streamsize>(value_bytes)))

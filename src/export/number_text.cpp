@@ -202,11 +202,11 @@ std::string encode_json(const std::vector<Image>& images) {
   return text + "\n}\n";
 }
 
-std::string encode_javascript(const std::vector<Image>& images) {
+std::string encode_javascript(const std::vector<Image>& images, std::string_view declaration) {
   require_writable(images, is_identifier, identifier_rule);
   std::string text;
   for (const Image& image : images) {
-    text += size_comment(image) + fmt::format("export const {} = [", image.name);
+    text += size_comment(image) + fmt::format("{} {} = [", declaration, image.name);
     append_values(text, image, "");
     text += "];\n";
   }

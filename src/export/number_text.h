@@ -16,8 +16,9 @@ namespace ltc {
 // {"size": {"LTC_MAT_1": [width, height, layers, channels]}, "LTC_MAT_1": [...], ...}
 std::string encode_json(const std::vector<Image>& images);
 
-// A module: export const LTC_MAT_1 = [...];
-std::string encode_javascript(const std::vector<Image>& images);
+// A module: export const LTC_MAT_1 = [...]; or another declaration of the arrays.
+std::string encode_javascript(const std::vector<Image>& images,
+                              std::string_view declaration = "export const");
 
 // static const float ltc_1[16384] = {...}; between the lines of an include guard.
 std::string encode_c_header(const std::vector<Image>& images, std::string_view guard_name);

@@ -17,9 +17,6 @@ std::vector<Image> decode_lists(const std::vector<NamedBytes>& files) {
 
 // The module of three.js' addons of that name: its textures are made by init().
 std::string three_module(const std::vector<Image>& images) {
-  std::string arrays = encode_javascript(images);
-  for (std::size_t at = 0; (at = arrays.find("export const", at)) != std::string::npos;)
-    arrays.erase(at, std::string_view("export ").size());
   const Image& image = images.front();
   return fmt::format(R"(import {{
   ClampToEdgeWrapping, DataTexture, DataUtils, FloatType, HalfFloatType, LinearFilter,
@@ -53,7 +50,7 @@ RectAreaLightTexturesLib.LTC_FLOAT_2 = null;
 
 export {{ RectAreaLightTexturesLib }};
 )",
-                     arrays, image.width, image.height);
+                     encode_javascript(images, "const"), image.width, image.height);
 }
 
 std::string javascript_of(const std::vector<Image>& images, const WriteOptions& options) {

@@ -3,6 +3,7 @@
 #include "export/texture_format.h"
 
 #include <algorithm>
+#include <iterator>
 #include <system_error>
 
 #include "core/read_file.h"
@@ -34,25 +35,31 @@ std::size_t set_for(const Container& container, TextureLayout layout) {
   return sets_of(container).size() - 1;
 }
 
+// Whether each image has a file of its own in such a set.
+bool has_file_each(const Container& container, const TableFiles& files) {
+  return container.endings.size() == 1 && files.size() > 1;
+}
+
+NamedBytes read(const std::filesystem::path& file) {
+  return {file, read_whole_file(file, "table", most_bytes)};
+}
+
 // A file beside the first may be missing: tables of matrices alone have one texture.
-std::vector<NamedBytes> read_files(const TableFiles& files, bool one_image_each) {
-  std::vector<NamedBytes> read;
+std::vector<Image> decode_each(const Container& container, const TableFiles& files) {
+  std::vector<Image> images;
   std::error_code ignored;
   for (const std::filesystem::path& file : files)
-    if (&file == &files.front() || !one_image_each || std::filesystem::exists(file, ignored))
-      read.push_back({file, read_whole_file(file, "table", most_bytes)});
-  return read;
+    if (&file == &files.front() || std::filesystem::exists(file, ignored))
+      std::ranges::move(container.decode({read(file)}), std::back_inserter(images));
+  return images;
 }
 
 std::vector<Image> decode_all(const Container& container, const TableFiles& files) {
-  const bool one_image_each = files.size() > 1 && files.size() != container.endings.size();
-  const std::vector<NamedBytes> read = read_files(files, one_image_each);
-  if (!one_image_each)
-    return container.decode(read);
-  std::vector<Image> images;
-  for (const NamedBytes& file : read)
-    std::ranges::move(container.decode({file}), std::back_inserter(images));
-  return images;
+  if (has_file_each(container, files))
+    return decode_each(container, files);
+  std::vector<NamedBytes> bytes;
+  std::ranges::transform(files, std::back_inserter(bytes), read);
+  return container.decode(bytes);
 }
 
 void add(const Container& container, platform::FileSet& set, const Table& table,
@@ -61,7 +68,7 @@ void add(const Container& container, platform::FileSet& set, const Table& table,
   for (Image& image : images)
     image.precision = options.half ? Precision::half : Precision::single;
   std::vector<std::string> bytes;
-  if (container.endings.size() == 1 && files.size() == images.size() && images.size() > 1)
+  if (has_file_each(container, files))
     for (std::size_t i = 0; i < files.size(); ++i)
       bytes.push_back(container.encode({images[i]}, {files[i]}, options).front());
   else

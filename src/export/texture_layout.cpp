@@ -12,6 +12,7 @@
 #include "core/angle.h"
 #include "core/error.h"
 #include "export/consistency.h"
+#include "export/entry_channels.h"
 #include "export/nearest.h"
 #include "ltc/sphere_clip.h"
 
@@ -131,7 +132,7 @@ double mean_distance_to_mirror(const Table& table) {
 
 // ---- Anisotropic: the texels of the OpenEXR textures ----
 
-constexpr std::size_t volumes = 3, channels = 4;
+constexpr std::size_t volumes = texels_per_entry, channels = channels_per_texel;
 
 std::vector<Image> volume_images(const Table& table, TextureLayout layout) {
   const std::vector<std::size_t> source = nearest_fitted(table);
@@ -148,10 +149,7 @@ std::vector<Image> volume_images(const Table& table, TextureLayout layout) {
     part.name = fmt::format("ltc{}", volume);
     for (const std::size_t entry : source)
       for (std::size_t channel = channels * volume; channel < channels * (volume + 1); ++channel)
-        part.values.push_back(channel < 9     ? table.stored[9 * entry + channel]
-                              : channel == 9  ? table.amplitude[entry]
-                              : channel == 10 ? table.fresnel[entry]
-                                              : 0.0f);
+        part.values.push_back(channel_value(table, entry, channel));
   }
   if (layout == TextureLayout::volumes)
     return images;
@@ -176,14 +174,12 @@ Table volume_table(const std::vector<Image>& images, const std::filesystem::path
   require_consistent(grid, file);
   Table table = Table::empty(grid, Storage::matrix);
   for (std::size_t entry = 0; entry < grid.size(); ++entry)
-    for (std::size_t channel = 0; channel < 11; ++channel) {
+    for (std::size_t channel = 0; channel <= fresnel_channel; ++channel) {
       const std::size_t volume = channel / channels, at = entry * channels + channel % channels;
-      const float value = images.size() == volumes
-                              ? images[volume].values[at]
-                              : first.values[volume * grid.size() * channels + at];
-      (channel < 9    ? table.stored[9 * entry + channel]
-       : channel == 9 ? table.amplitude[entry]
-                      : table.fresnel[entry]) = value;
+      set_channel_value(table, entry, channel,
+                        images.size() == volumes
+                            ? images[volume].values[at]
+                            : first.values[volume * grid.size() * channels + at]);
     }
   return table;
 }

@@ -4,10 +4,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace ltc {
 
 enum class Precision { single, half };  // 32 bits, 16 bits
+
+inline float largest_value(Precision precision) {
+  return precision == Precision::half ? 65504.0f : std::numeric_limits<float>::max();
+}
 
 // Every entry the nearest that the precision has, ties to even, as processors and texture units
 // round; infinite where it is beyond the largest.

@@ -19,14 +19,9 @@ namespace ltc {
 namespace {
 
 using testing::expect_refusal;
+using testing::field;
 using testing::numbered_image;
 using testing::with;
-
-std::uint32_t field(const std::string& bytes, std::size_t offset) {
-  std::uint32_t value;
-  std::memcpy(&value, bytes.data() + offset, 4);
-  return value;
-}
 
 Image read(const std::string& bytes) {
   return decode_dds(bytes, "x.dds");

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -39,6 +40,14 @@ template <class T>
 std::string with(std::string bytes, std::size_t offset, T value) {
   std::memcpy(bytes.data() + offset, &value, sizeof value);
   return bytes;
+}
+
+// The number at an offset.
+template <class T = std::uint32_t>
+T field(const std::string& bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
 }
 
 inline void expect_refusal(const std::function<void()>& action, const std::string& part) {

@@ -24,15 +24,9 @@ namespace ltc {
 namespace {
 
 using testing::expect_refusal;
+using testing::field;
 using testing::numbered_image;
 using testing::with;
-
-template <class T = std::uint32_t>
-T field(const std::string& bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof value);
-  return value;
-}
 
 Image read(const std::string& bytes) {
   return decode_ktx2(bytes, "x.ktx2");
