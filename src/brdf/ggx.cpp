@@ -38,15 +38,6 @@ double ggx_lambda(double alpha_x, double alpha_y, const Eigen::Vector3d& omega) 
   return s_squared / (2 * z * (z + std::sqrt(z * z + s_squared)));
 }
 
-double ggx_g1(double alpha_x, double alpha_y, const Eigen::Vector3d& omega) {
-  return 1 / (1 + ggx_lambda(alpha_x, alpha_y, omega));
-}
-
-double ggx_g2(double alpha_x, double alpha_y, const Eigen::Vector3d& omega_v,
-              const Eigen::Vector3d& omega_l) {
-  return 1 / (1 + ggx_lambda(alpha_x, alpha_y, omega_v) + ggx_lambda(alpha_x, alpha_y, omega_l));
-}
-
 GgxSampler::GgxSampler(const Lobe& lobe)
     : LobeSampler(lobe.omega_v()),
       alpha_x_(lobe.alpha_x),

@@ -22,11 +22,6 @@ double ggx_ndf(double alpha_x, double alpha_y, const Eigen::Vector3d& omega_h);
 // Lambda, equation (5), free of cancellation. Infinite at the horizon; even in z.
 double ggx_lambda(double alpha_x, double alpha_y, const Eigen::Vector3d& omega);
 
-// Masking G1 = 1/(1 + Lambda) of one direction, and G2 of equation (5) of two.
-double ggx_g1(double alpha_x, double alpha_y, const Eigen::Vector3d& omega);
-double ggx_g2(double alpha_x, double alpha_y, const Eigen::Vector3d& omega_v,
-              const Eigen::Vector3d& omega_l);
-
 // Evaluates and samples one lobe; keeps what only depends on the view.
 class GgxSampler final : public LobeSampler {
  public:

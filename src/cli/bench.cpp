@@ -121,6 +121,14 @@ std::optional<Table> table_of(const std::string& file, std::optional<ReadAs> lay
   return file.empty() ? std::nullopt : std::optional<Table>(read_input(file, layout));
 }
 
+void require_grid(const Grid& grid, const std::optional<Table>& table,
+                  const std::string& file) try {
+  if (table)
+    require_same_grid(table->grid, grid);
+} catch (const InputError& error) {
+  throw InputError(fmt::format("{} against the config: {}", file, error.what()));
+}
+
 std::vector<BenchSetting> chosen_settings(const Arguments& arguments, const Config& config) try {
   return select_settings(available_settings(arguments, config), arguments.settings);
 } catch (const InputError& error) {
@@ -133,6 +141,8 @@ void bench(const Arguments& arguments) {
   const Config config = arguments.config.load();
   const std::optional<Table> published = table_of(arguments.published, arguments.layout);
   const std::optional<Table> reference = table_of(arguments.reference, arguments.layout);
+  require_grid(config.grid, published, arguments.published);
+  require_grid(config.grid, reference, arguments.reference);
 
   if (reference && reference->refined == true)
     warn(

@@ -233,7 +233,10 @@ std::string report_json(const DiffReport& report) {
 }
 
 std::string report_csv(const DiffReport& report) {
-  std::string text = "alpha,lambda,theta,phi";
+  // Of the node; the lobe's own alpha_x and alpha_y follow.
+  std::string text = report.grid().layout == Layout::alphax_alphay
+                         ? "alpha_x_node,alpha_y_node,theta,phi"
+                         : "alpha,lambda,theta,phi";
   const auto add_names = [&](const auto& fields) {
     for (const Field& field : fields)
       text += fmt::format(",{}", field.name);

@@ -38,6 +38,11 @@ bool terminal_is_dumb() {
   return kind && std::string_view(kind) == "dumb";
 }
 
+// What is counted, where the stage's name does not say it.
+std::string_view unit_of(std::string_view stage) {
+  return stage == "refine" ? " evaluations of queries" : "";
+}
+
 double fraction(const StageState& state) {
   return state.total ? static_cast<double>(state.done) / static_cast<double>(state.total) : 0;
 }
@@ -70,7 +75,7 @@ std::string bar_text(const StageState& state, std::size_t columns) {
 }
 
 std::string line_text(const StageState& state) {
-  return fmt::format("{}: {} of {}{}", state.name, state.done, state.total,
+  return fmt::format("{}: {} of {}{}{}", state.name, state.done, state.total, unit_of(state.name),
                      rate_and_rest(state, ", "));
 }
 
@@ -96,7 +101,7 @@ void ProgressDisplay::begin_stage(std::string_view name, std::size_t total) {
   stage_began_ = Clock::now();
   next_line_ = stage_began_ + first_line;
   if (!on_terminal_)
-    tell(fmt::format("{}: {} to do\n", stage_, total_));
+    tell(fmt::format("{}: {}{} to do\n", stage_, total_, unit_of(stage_)));
   if (!drawer_.joinable())
     drawer_ = std::thread([this] { draw_until_closed(); });
 }

@@ -107,8 +107,7 @@ struct Destination {
 Destination destination_of(const fs::path& output) {
   if (output.extension() != ".png")
     return {output, "spheres", true};
-  const fs::path folder = output.parent_path();
-  return {folder.empty() ? fs::path(".") : folder, output.stem().string(), false};
+  return {output.parent_path(), output.stem().string(), false};
 }
 
 // A folder may have a dot in its name, but one that is called like another picture is a mistake.

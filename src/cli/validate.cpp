@@ -95,7 +95,7 @@ Action declare_validate(CLI::App& app) {
                         "folder for a page with all figures and pictures, DIR/index.html")
           ->group("What to write");
   app.add_flag("--no-quality", arguments->no_quality,
-               "check the invariants alone, which takes seconds")
+               "check the invariants alone, which takes seconds; not with --report")
       ->excludes(page)
       ->group("What to demand");
   add_threads_option(app, arguments->threads);

@@ -37,6 +37,9 @@ void set_key(const std::string& name, const toml::node& node, const std::string&
   const auto key = std::find_if(keys.begin(), keys.end(),
                                 [&](const BoundKey& candidate) { return candidate.name == name; });
   const Value value = value_of(node);
+  if (key == keys.end() && node.is_table())
+    throw InputError(
+        fmt::format("{}: unknown section {}; {}", source, name, vocabulary.where_listed));
   if (key == keys.end() && is_section(vocabulary, name))
     throw InputError(fmt::format("{}: {} = {}: {} is a section; expected a key in it", source, name,
                                  toml_of(value), name));
@@ -62,22 +65,24 @@ void set_keys(const std::string& prefix, const toml::table& table, const SourceO
   }
 }
 
-void set_keys_of(const toml::table& root, const std::filesystem::path& file,
-                 const Vocabulary& vocabulary, Sources& sources) {
-  set_keys(
-      "", root, [&](const toml::node& node) { return place_of(file, node.source()); }, vocabulary,
-      sources);
-}
-
 }  // namespace
 
 void read_file(const std::filesystem::path& file, const Vocabulary& vocabulary, Sources& sources) {
-  set_keys_of(read_toml(file, "config"), file, vocabulary, sources);
+  read_text(read_toml_text(file, "config"), file, vocabulary, sources);
 }
 
 void read_text(std::string_view text, const std::filesystem::path& source,
                const Vocabulary& vocabulary, Sources& sources) {
-  set_keys_of(parse_toml(text, source), source, vocabulary, sources);
+  const toml::table root = [&] {
+    try {
+      return parse_toml(text, source);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}; {}", error.what(), vocabulary.where_listed));
+    }
+  }();
+  set_keys(
+      "", root, [&](const toml::node& node) { return place_of(source, node.source()); }, vocabulary,
+      sources);
 }
 
 void read_override(std::string_view override, const std::string& source,

@@ -107,11 +107,6 @@ std::uint64_t entry_seed(std::uint64_t seed, std::size_t representative) {
 }
 
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
-                                   const RunContext& run) {
-  return fit_table(grid, settings, std::vector<bool>(grid.size(), true), run);
-}
-
-std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
                                    const std::vector<bool>& needed, const RunContext& run,
                                    FitWatch* watch, FitJournal* journal) {
   return fit_table(grid, settings, plan_by_symmetry(grid, needed, run), run, watch, journal);

@@ -52,10 +52,6 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
                                    const std::vector<bool>& needed, const RunContext& run,
                                    FitWatch* watch = nullptr, FitJournal* journal = nullptr);
 
-// All of them.
-std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
-                                   const RunContext& run);
-
 // How many sweeps the settings ask for: none but with the solver that has them.
 int sweep_count(const FitSettings& settings);
 

@@ -101,6 +101,15 @@ ValidateSettings rounding_to_half() {
   return settings;
 }
 
+// Of the widest cell, at least 1. A refined node serves the cells about it: the wider they are, the
+// farther is its lobe from GGX's, at alpha = 0 above all.
+double cell_width_over_default(const Axis& alpha) {
+  double widest = 0;
+  for (std::size_t i = 1; i < alpha.nodes.size(); ++i)
+    widest = std::max(widest, alpha.nodes[i] - alpha.nodes[i - 1]);
+  return std::max(7 * widest - 1e-9, 1.0);  // but for rounding
+}
+
 }  // namespace
 
 ValidateSettings settings_for_refined_tables() {
@@ -116,6 +125,7 @@ ValidateSettings settings_for_refined_tables() {
 ValidateSettings settings_for(const Table& table) {
   ValidateSettings settings =
       table.refined == false ? ValidateSettings{} : settings_for_refined_tables();
+  settings.invariants.neighbour_slack *= cell_width_over_default(table.grid.alpha);
   if (!table.refined)
     raise_to(settings, ValidateSettings{});
   if (table.precision == Precision::half)

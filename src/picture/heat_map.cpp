@@ -150,8 +150,12 @@ std::string span_text(const MapAxis& axis) {
   return fmt::format("{} {} to {}", axis.title, label_of(axis, 0), label_of(axis, axis.size - 1));
 }
 
-std::array<std::string, 3> key_lines(const TiledMap& map) {
-  return {"within a tile", "→ " + span_text(map.columns), "↓ " + span_text(map.rows)};
+std::vector<std::string> key_lines(const TiledMap& map) {
+  std::vector<std::string> lines{"within a tile", "→ " + span_text(map.columns),
+                                 "↓ " + span_text(map.rows)};
+  if (std::any_of(map.values.begin(), map.values.end(), [](float v) { return std::isnan(v); }))
+    lines.emplace_back("hatched: no value");
+  return lines;
 }
 
 double key_width(const Canvas& canvas, const TiledMap& map) {

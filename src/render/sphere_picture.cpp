@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/quantile.h"
 #include "picture/color_bar.h"
 #include "picture/text.h"
 
@@ -56,17 +57,13 @@ Field as_seen(const Field& radiance, const Field& coverage, double exposure) {
 
 // The magnitude that all but the largest 0.2 % of the values keep below: a few pixels at a sharp
 // edge shall not pale all the others. Zero if there are none.
-double nearly_largest(std::vector<float> magnitudes) {
-  if (magnitudes.empty())
-    return 0;
-  const double rank = 0.998 * static_cast<double>(magnitudes.size() - 1);
-  const auto place = magnitudes.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(magnitudes.begin(), place, magnitudes.end());
-  return *place;
+double nearly_largest(std::vector<double> magnitudes) {
+  std::sort(magnitudes.begin(), magnitudes.end());
+  return magnitudes.empty() ? 0 : quantile(magnitudes, 0.998);
 }
 
 // The magnitudes of the pixels on the sphere that have a value.
-void add_magnitudes(const Field& field, const Field& coverage, std::vector<float>& magnitudes) {
+void add_magnitudes(const Field& field, const Field& coverage, std::vector<double>& magnitudes) {
   for (std::size_t i = 0; i < field.values.size(); ++i)
     if (coverage.values[i] > 0 && std::isfinite(field.values[i]))
       magnitudes.push_back(std::abs(field.values[i]));
@@ -86,14 +83,14 @@ double rounded_up(double value) {
 }
 
 double exposure_of(const SphereImages& images) {
-  std::vector<float> magnitudes;
+  std::vector<double> magnitudes;
   add_magnitudes(images.reference, images.coverage, magnitudes);
   const double largest = nearly_largest(std::move(magnitudes));
   return largest > 0 ? brightest / largest : 1;
 }
 
 ColorScale difference_colors(const SphereImages& images) {
-  std::vector<float> magnitudes;
+  std::vector<double> magnitudes;
   for (std::size_t table = 0; table < images.ltc.size(); ++table)
     add_magnitudes(difference(images, table), images.coverage, magnitudes);
   const double bound = rounded_up(nearly_largest(std::move(magnitudes)));
@@ -106,6 +103,7 @@ class Painter {
       : content_(content),
         side_(std::max(least_side, static_cast<double>(content.rows[0].images.reference.width))),
         font_(std::max(12.0, std::round(side_ / 17))),
+        row_height_(std::max(side_, tallest_label())),
         canvas_(static_cast<int>(width()), static_cast<int>(height())) {}
 
   Canvas paint() {
@@ -114,15 +112,15 @@ class Painter {
     const Box heads = box.take_top(head_height * font_);
     draw_heads(heads.bottom() - 0.5 * font_);
     for (std::size_t row = 0; row < content_.rows.size(); ++row)
-      draw_row(row, std::round(box.top + static_cast<double>(row) * (side_ + gap * font_)));
+      draw_row(row, std::round(box.top + static_cast<double>(row) * (row_height_ + gap * font_)));
     return std::move(canvas_);
   }
 
  private:
   Words words() const { return {content_.title, "", content_.caption}; }
-  double rows_side() const {
+  double rows_height() const {
     const auto rows = static_cast<double>(content_.rows.size());
-    return rows * side_ + (rows - 1) * gap * font_;
+    return rows * row_height_ + (rows - 1) * gap * font_;
   }
   double left_of_reference() const { return std::round((margin + label_width) * font_); }
   double left_of_table(std::size_t table) const {
@@ -137,7 +135,7 @@ class Painter {
   double width() const { return std::ceil(bar_left() + bar_width() + margin * font_); }
   double height() const {
     const double around = -inside_words({0, 0, 0, 0}, words(), font_).height;
-    return std::ceil(around + (head_height + 2 * margin) * font_ + rows_side());
+    return std::ceil(around + (head_height + 2 * margin) * font_ + rows_height());
   }
 
   void head(double left, double baseline, const std::string& text) {
@@ -154,7 +152,7 @@ class Painter {
 
   void draw_row(std::size_t index, double top) {
     const SphereRow& row = content_.rows[index];
-    draw_label(row, top);
+    draw_label(label_of(row), top);
     const ColorScale grey{Scale::linear(0, 1), &greys()};
     const ColorScale colors = difference_colors(row.images);
     const double exposure = exposure_of(row.images);
@@ -174,38 +172,66 @@ class Painter {
     draw_upright_bar(canvas_, {bar_left(), top, bar_width(), side_}, colors, 0.8 * font_, outside);
   }
 
-  void draw_label(const SphereRow& row, double top) {
-    double baseline = top + 1.2 * font_;
-    const double width = (label_width - 0.8) * font_;
-    const auto line = [&](const std::string& text, bool bold, double size) {
-      fitted_text(canvas_, {margin * font_, baseline}, text,
-                  {.size = size * font_, .color = bold ? ink : faint_ink, .bold = bold}, width);
-      baseline += line_spacing * size * font_;
-    };
-    line(fmt::format("αx = {}", format_value(row.material.alpha_x)), true, 1);
-    line(fmt::format("αy = {}", format_value(row.material.alpha_y)), true, 1);
+  struct LabelLine {
+    std::string text;
+    bool bold = false;
+    double above = 0;  // room, in units of the font size as all here
+    double size() const { return bold ? 1 : 0.8; }
+  };
+
+  std::vector<LabelLine> label_of(const SphereRow& row) const {
+    std::vector<LabelLine> lines{
+        {fmt::format("αx = {}", format_value(row.material.alpha_x)), true},
+        {fmt::format("αy = {}", format_value(row.material.alpha_y)), true}};
     if (row.material.f0 != 1)
-      line(fmt::format("F0 = {}", format_value(row.material.f0)), true, 1);
-    line(fmt::format("shown {:.2g} × as bright", exposure_of(row.images)), false, 0.8);
+      lines.push_back({fmt::format("F0 = {}", format_value(row.material.f0)), true});
+    lines.push_back({fmt::format("shown {:.2g} × as bright", exposure_of(row.images))});
     for (std::size_t table = 0; table < content_.tables.size(); ++table) {
+      const std::size_t first = lines.size();
       const SphereError error = sphere_error(row.images, table);
-      baseline += 0.6 * font_;
       if (content_.tables.size() > 1)
-        line(content_.tables[table], false, 0.8);
+        lines.push_back({content_.tables[table]});
       if (error.pixels > 0) {
-        line(fmt::format("mean |error| {:.2g}", error.mean_absolute), false, 0.8);
-        line(fmt::format("RMSE {:.1f} % of mean", 100 * error.relative_rmse), false, 0.8);
-        line(fmt::format("noise in it {:.1f} %", 100 * error.relative_noise), false, 0.8);
+        lines.push_back({fmt::format("mean |error| {:.2g}", error.mean_absolute)});
+        lines.push_back({fmt::format("RMSE {:.1f} % of mean", 100 * error.relative_rmse)});
+        lines.push_back({fmt::format("noise in it {:.1f} %", 100 * error.relative_noise)});
       }
       if (!row.clamped.empty() && !row.clamped[table].empty())
-        line("clamped: " + clamping_text(row.clamped[table]), false, 0.8);
+        lines.push_back({"clamped: " + clamping_text(row.clamped[table])});
       if (error.without > 0)
-        line(fmt::format("{} pixels without entry", error.without), false, 0.8);
+        lines.push_back({fmt::format("{} pixels without entry", error.without)});
+      if (first < lines.size())
+        lines[first].above = 0.6;
+    }
+    return lines;
+  }
+
+  // Two tables have more to say than a small sphere is high.
+  double tallest_label() const {
+    double tallest = 0;
+    for (const SphereRow& row : content_.rows) {
+      double height = 0;
+      for (const LabelLine& line : label_of(row))
+        height += (line.above + line_spacing * line.size()) * font_;
+      tallest = std::max(tallest, height);
+    }
+    return std::ceil(tallest);
+  }
+
+  void draw_label(const std::vector<LabelLine>& lines, double top) {
+    double baseline = top + 1.2 * font_;
+    for (const LabelLine& line : lines) {
+      baseline += line.above * font_;
+      fitted_text(
+          canvas_, {margin * font_, baseline}, line.text,
+          {.size = line.size() * font_, .color = line.bold ? ink : faint_ink, .bold = line.bold},
+          (label_width - 0.8) * font_);
+      baseline += line_spacing * line.size() * font_;
     }
   }
 
   const SpherePicture& content_;
-  double side_, font_;
+  double side_, font_, row_height_;
   Canvas canvas_;
 };
 

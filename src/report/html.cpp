@@ -69,17 +69,12 @@ std::string figure(const picture::Canvas& picture, std::string_view text,
 }
 
 std::string verdict(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::passed:
-      return "<span class=\"verdict passed\">✓ passed</span>";
-    case Verdict::failed:
-      return "<span class=\"verdict failed\">✗ failed</span>";
-    case Verdict::not_judged:
-      return "<span class=\"verdict unchecked\">– not judged</span>";
-    case Verdict::not_checked:
-      return "<span class=\"verdict unchecked\">– not checked</span>";
-  }
-  return "";
+  constexpr std::pair<const char*, const char*> words[] = {{"passed", "✓ passed"},
+                                                           {"failed", "✗ failed"},
+                                                           {"unchecked", "– not judged"},
+                                                           {"unchecked", "– not checked"}};
+  const auto [style, word] = words[static_cast<std::size_t>(verdict)];
+  return fmt::format("<span class=\"verdict {}\">{}</span>", style, word);
 }
 
 std::string table(const Table& table) {

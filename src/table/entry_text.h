@@ -18,7 +18,7 @@ std::string entry_text(const Grid& grid, std::size_t flat);
 std::string shape_text(const Grid& grid, std::string_view between = "x");
 
 // "alpha_x 0.429, alpha_y 0.143, …" with layout alphax_alphay.
-// "alpha 0.429, lambda 0.000, theta 90.0, phi 51.4", angles in degrees.
+// "alpha 0.429, lambda 0.000, theta 89.991, phi 51.4", angles in degrees.
 std::string lobe_text(const Grid& grid, std::size_t flat);
 
 }  // namespace ltc

@@ -57,7 +57,7 @@ FoldedLobe turn(const Lobe& lobe, double phi_radians) {
   const double alpha =
       std::isnan(lobe.alpha_y) ? lobe.alpha_y : std::max(lobe.alpha_x, lobe.alpha_y);
   const Eigen::AngleAxisd back(wrapped(lobe.phi_radians) - phi_radians, Eigen::Vector3d::UnitZ());
-  return {{alpha, alpha, lobe.theta_radians, phi_radians}, back.toRotationMatrix()};
+  return {{alpha, alpha, lobe.theta_radians, phi_radians, lobe.model}, back.toRotationMatrix()};
 }
 
 double clamped(const Axis& axis, double value, double below, double above) {

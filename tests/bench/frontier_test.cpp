@@ -60,7 +60,7 @@ TEST(Frontier, FitsWhatSymmetryLeaves) {
                                               few.steps = few.starts = 1;
                                               return least;
                                             }(),
-                                            {1});
+                                            plan_by_symmetry(grid), {1});
   std::size_t count = 0;
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
     const bool fitted = entries_are_fitted[flat].status != Status::copied;
@@ -135,7 +135,8 @@ TEST(Frontier, JudgesWhatTheTableWouldHold) {
   const FrontierRun run = measure_frontier(task);
   HeldOutJudge judge(task.judge.samples, task.judge.directions, task.judge.seed);
   for (std::size_t i = 0; i < task.settings.size(); ++i) {
-    const std::vector<FittedEntry> table = fit_table(task.grid, task.settings[i].fit, {1});
+    const std::vector<FittedEntry> table =
+        fit_table(task.grid, task.settings[i].fit, plan_by_symmetry(task.grid), {1});
     for (std::size_t place = 0; place < task.entries.size(); ++place) {
       const std::size_t flat = task.entries[place];
       judge.set_lobe(task.grid.lobe(flat));

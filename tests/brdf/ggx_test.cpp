@@ -62,8 +62,6 @@ TEST(Ggx, LambdaKeepsItsDigits) {
 
 TEST(Ggx, LambdaIsInfiniteAtTheHorizon) {
   EXPECT_TRUE(std::isinf(ggx_lambda(0.1, 0.1, {1, 0, 0})));
-  EXPECT_EQ(ggx_g1(0.1, 0.1, {1, 0, 0}), 0);
-  EXPECT_EQ(ggx_g2(0.1, 0.1, {0, 0, 1}, {1, 0, 0}), 0);
 }
 
 TEST(Ggx, ProjectedNormalDistributionIntegratesToOne) {
@@ -98,8 +96,9 @@ TEST(Ggx, BrdfIsEquationSixAndReciprocal) {
     const Lobe there{alpha_x, alpha_y, theta_v, phi_v}, back{alpha_x, alpha_y, theta_l, phi_l};
     const Eigen::Vector3d v = there.omega_v(), l = back.omega_v();
     const Eigen::Vector3d h = (v + l).normalized();
-    const double as_printed =
-        ggx_ndf(alpha_x, alpha_y, h) * ggx_g2(alpha_x, alpha_y, v, l) / (4 * v.z());
+    const double masking =
+        1 / (1 + ggx_lambda(alpha_x, alpha_y, v) + ggx_lambda(alpha_x, alpha_y, l));
+    const double as_printed = ggx_ndf(alpha_x, alpha_y, h) * masking / (4 * v.z());
     const double value = GgxSampler(there).brdf_cosine(l);
     EXPECT_NEAR(value, as_printed, 1e-12 * as_printed);  // rounding of well-conditioned terms
     EXPECT_NEAR(value * v.z(), GgxSampler(back).brdf_cosine(v) * l.z(), 1e-12 * value);

@@ -26,7 +26,7 @@ class SeparableSampler final : public LobeSampler {
 
  private:
   double masking(const Eigen::Vector3d& omega_l) const {
-    return omega_l.z() > 0 ? ggx_g1(lobe_.alpha_x, lobe_.alpha_y, omega_l) : 0;
+    return omega_l.z() > 0 ? 1 / (1 + ggx_lambda(lobe_.alpha_x, lobe_.alpha_y, omega_l)) : 0;
   }
 
   Lobe lobe_;

@@ -95,6 +95,15 @@ TEST(Bench, WarnsOfAReferenceThatIsRefined) {
   }
 }
 
+TEST(Bench, NamesTheTableOfAnotherGrid) {
+  const test::TemporaryDirectory folder;
+  const std::string table = (folder / "other.h5").string();
+  write_table(testing::synthetic_table(Grid::paper(2), Storage::matrix), table);
+  for (const char* option : {"--reference", "--published"})
+    expect_refused({"bench", "--entries", "1", option, table}, 2,
+                   {"other.h5", "2x2x2x2 and 8x8x8x8"});
+}
+
 TEST(Bench, RefusesBadInputInOneLine) {
   expect_refused(bench({"--settings", "fast"}), 2, {"--settings"});
   expect_refused({"bench", "--settings", "fast"}, 2, {"\"fast\"", "default", "sgd-published"});

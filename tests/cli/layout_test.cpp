@@ -48,6 +48,22 @@ TEST(LayoutOfArrays, IsToldBySymmetryAndSaid) {
   EXPECT_NE(ratio.out.find("1,2,1,1: alpha 0.333, lambda 0.667, "), std::string::npos) << ratio.out;
 }
 
+TEST(LayoutOfArrays, NamesTheColumnsOfDiff) {
+  const Arrays arrays;
+  const auto first_line = [&](const char* layout) {
+    const ProgramResult result =
+        run_ltcfit({"diff", "both.npy", "both.npy", "--layout", layout, "--samples", "64",
+                    "--directions", "1", "--queries", "0", "--csv", "all.csv"},
+                   arrays.folder.path());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string text = read_file(arrays.folder / "all.csv");
+    return text.substr(0, text.find('\n'));
+  };
+  EXPECT_TRUE(
+      first_line("alphax-alphay").starts_with("alpha_x_node,alpha_y_node,theta,phi,loss_a,"));
+  EXPECT_TRUE(first_line("alpha-lambda").starts_with("alpha,lambda,theta,phi,loss_a,"));
+}
+
 TEST(LayoutOfArrays, IsToldOfStartsAndReferencesToo) {
   const Arrays arrays;
   const std::vector<std::string> start{"fit",     "--alpha-x", "0.3",   "--alpha-y", "0.2",

@@ -18,6 +18,8 @@ TEST(Progress, BarShowsShareRateAndTimeLeft) {
   EXPECT_EQ(bar_text(half, 200),
             "fit         [==========>         ]  50 %  2048/4096  512/s  4.0 s left");
   EXPECT_EQ(line_text(half), "fit: 2048 of 4096, 512/s, 4.0 s left");
+  EXPECT_EQ(line_text({"refine", 2048, 4096, 4.0}),
+            "refine: 2048 of 4096 evaluations of queries, 512/s, 4.0 s left");
 }
 
 TEST(Progress, NothingIsPromisedBeforeTheFirstUnit) {

@@ -129,13 +129,17 @@ void expect_commands_show(const std::string& text, const std::string& label, con
   EXPECT_EQ(found, commands) << text;
 }
 
+// Fits of few samples: each command makes one of its own.
 TEST(RefineProgram, CommandsShowWhatIsStoredAndWhatWasFitted) {
   const TemporaryDirectory folder;
-  ASSERT_EQ(
-      run_ltcfit(generate({"-o", "fitted", "--set", "refine.steps=0"}), folder.path()).exit_code,
-      0);
-  const ProgramResult made =
-      run_ltcfit(generate({"-o", "refined", "--set", "refine.steps=2"}), folder.path());
+  const auto make = [&](const std::string& name, const std::string& steps) {
+    return run_ltcfit(
+        generate({"-o", name, "--set", "refine.steps=" + steps, "--set",
+                  "fit.gauss_newton.samples=128", "--set", "fit.gauss_newton.target_samples=512"}),
+        folder.path());
+  };
+  ASSERT_EQ(make("fitted", "0").exit_code, 0);
+  const ProgramResult made = make("refined", "2");
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const Table before = read_table(folder / "fitted/ltc.h5"),
               after = read_table(folder / "refined/ltc.h5");

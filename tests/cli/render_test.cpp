@@ -55,6 +55,15 @@ TEST_F(Render, ComparesTwoTablesInOneMaterial) {
   EXPECT_NE(read_file(folder_ / "made/two_0.2_0.4.exr").find("difference_b.Y"), std::string::npos);
 }
 
+TEST_F(Render, NamesItsFilesAsTheyWereNamed) {
+  const ProgramResult result =
+      run({"t.h5", "--alpha-x", "0.2", "--alpha-y", "0.4", "-o", "q.png", "--json", "r.json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto report = nlohmann::json::parse(read_file(folder_ / "r.json"));
+  EXPECT_EQ(report["picture"], "q.png");
+  EXPECT_EQ(report["materials"][0]["image"], "q_0.2_0.4.exr");
+}
+
 TEST_F(Render, TakesMaterialsAndTheSizeOfTheLight) {
   const std::vector<std::string> two{"t.h5", "--material", "0.3,0.05", "--material", "0.2,1", "-o"};
   const auto with = [&](const std::vector<std::string>& more) {

@@ -199,7 +199,9 @@ TEST(Config, FilesAreNamedWithTheLine) {
     return all.substr(std::min(all.size(), file.string().size()));
   };
   EXPECT_EQ(message("[fit]\n\nseed = -1\n").find(":3: fit.seed = -1: expected a whole"), 0u);
-  EXPECT_EQ(message("[fitt]\nseed = 1\n").find(":1: unknown key fitt"), 0u);
+  EXPECT_EQ(
+      message("[fitt]\nseed = 1\n").find(":1: unknown section fitt; config/default.toml lists"),
+      0u);
   EXPECT_EQ(message("[fit]\nseed = \n").find(":2: not TOML"), 0u);
   EXPECT_EQ(message("fit = 3\n").find(":1: fit = 3: fit is a section"), 0u);
   EXPECT_EQ(message("[fit]\nseed = 1\nseed = 2\n").find(":3: not TOML"), 0u);

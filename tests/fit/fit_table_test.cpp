@@ -51,19 +51,20 @@ TEST(FitTable, HasTheSameBitsForAnyNumberOfThreads) {
       settings.sgd.samples = 64;
       settings.sgd.directions = 4;
       const Grid grid = Grid::paper(3);
-      const std::vector<FittedEntry> one = fit_table(grid, settings, {1});
-      EXPECT_TRUE(same_bits(one, fit_table(grid, settings, {2})));
-      EXPECT_TRUE(same_bits(one, fit_table(grid, settings, {16})));
+      const std::vector<FittedEntry> one = fit_table(grid, settings, plan_by_symmetry(grid), {1});
+      EXPECT_TRUE(same_bits(one, fit_table(grid, settings, plan_by_symmetry(grid), {2})));
+      EXPECT_TRUE(same_bits(one, fit_table(grid, settings, plan_by_symmetry(grid), {16})));
       // And the comparison can fail: another seed makes other samples where there are random ones.
       settings.seed = 2;
-      EXPECT_EQ(same_bits(one, fit_table(grid, settings, {2})),
+      EXPECT_EQ(same_bits(one, fit_table(grid, settings, plan_by_symmetry(grid), {2})),
                 solver == SolverKind::gauss_newton && target == TargetKind::weighted);
     }
 }
 
 TEST(FitTable, EveryEntryIsFittedOrAnalyticOrCopied) {
   const Grid grid = Grid::paper(3);
-  const std::vector<FittedEntry> entries = fit_table(grid, quick_settings(), {2});
+  const std::vector<FittedEntry> entries =
+      fit_table(grid, quick_settings(), plan_by_symmetry(grid), {2});
   const std::vector<PlannedEntry> plan = plan_by_symmetry(grid);
   ASSERT_EQ(entries.size(), grid.size());
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
@@ -89,11 +90,11 @@ TEST(FitTable, SweepsMakeNoEntryWorse) {
   settings.gauss_newton.starts = 1;
   settings.gauss_newton.coarse_steps = 1;
   settings.gauss_newton.steps = 1;
-  std::vector<FittedEntry> before = fit_table(grid, settings, {2});
+  std::vector<FittedEntry> before = fit_table(grid, settings, plan_by_symmetry(grid), {2});
   int improved = 0;
   for (int sweeps = 1; sweeps <= 2; ++sweeps) {
     settings.gauss_newton.neighbour_sweeps = sweeps;
-    const std::vector<FittedEntry> after = fit_table(grid, settings, {2});
+    const std::vector<FittedEntry> after = fit_table(grid, settings, plan_by_symmetry(grid), {2});
     for (std::size_t flat = 0; flat < grid.size(); ++flat) {
       EXPECT_LE(after[flat].loss, before[flat].loss) << flat;
       EXPECT_GE(after[flat].steps, before[flat].steps) << flat;
@@ -109,11 +110,11 @@ TEST(FitTable, StopsWhenAsked) {
   settings.gauss_newton.neighbour_sweeps = 1;
   const Grid grid = Grid::paper(3);
   Counter none;
-  EXPECT_NO_THROW(fit_table(grid, settings, {2, &none}));
+  EXPECT_NO_THROW(fit_table(grid, settings, plan_by_symmetry(grid), {2, &none}));
   EXPECT_EQ(none.stages, (std::vector<std::string>{"fit", "sweep"}));
   for (std::size_t stage = 1; stage <= 2; ++stage) {
     Counter stopping(stage);
-    EXPECT_THROW(fit_table(grid, settings, {2, &stopping}), Interrupted);
+    EXPECT_THROW(fit_table(grid, settings, plan_by_symmetry(grid), {2, &stopping}), Interrupted);
     EXPECT_EQ(stopping.stages.size(), stage);
   }
 }

@@ -88,7 +88,7 @@ TEST(HalfPrecision, WordsNameTheWorstEntryAndWhatIsLeftElsewhere) {
   EXPECT_EQ(
       half_precision_text(grid, errors),
       "16 bits move lobes by up to 1.2 of their spread, at entry 0,0,1,1 (alpha 0.000, lambda "
-      "0.000, theta 90.0, phi 90.0); at other alpha by up to 0.013");
+      "0.000, theta 89.991, phi 90.0); at other alpha by up to 0.013");
   EXPECT_EQ(half_precision_text(grid, std::vector<double>(grid.size(), NAN)), "");
 }
 

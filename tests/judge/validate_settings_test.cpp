@@ -68,6 +68,16 @@ TEST(ValidateSettings, FollowWhatIsKnownOfTheTable) {
   EXPECT_EQ(unknown.invariants, of_refined.invariants);
   EXPECT_EQ(unknown.thresholds.node_loss, of_refined.thresholds.node_loss);
   EXPECT_EQ(unknown.thresholds.query_loss, QualityThresholds{}.query_loss);
+  // Wide cells: half of alpha is 3.5 times the default's seventh.
+  table.refined = true;
+  table.grid = Grid::paper(3);
+  InvariantLimits wide = of_refined.invariants;
+  wide.neighbour_slack = settings_for(table).invariants.neighbour_slack;
+  EXPECT_NEAR(wide.neighbour_slack, 3.5 * of_refined.invariants.neighbour_slack, 1e-9);
+  EXPECT_EQ(settings_for(table).invariants, wide);
+  table.refined = false;
+  EXPECT_EQ(settings_for(table).invariants, InvariantLimits{});
+  table.grid = Grid::paper(8);
   // 16 bits: what they cannot hold, and nothing else.
   table.refined = false;
   table.precision = Precision::half;
@@ -105,14 +115,14 @@ TEST(ValidateSettings, WhatIsWrongIsSaidInOneLine) {
   expect_one_line(message("[invariants]\ncondition_numbers = 1e5\n"),
                   {"v.toml:2", "unknown key invariants.condition_numbers",
                    "did you mean invariants.condition_number?"});
-  expect_one_line(message("[invariant]\nzero = 0.0\n"), {"v.toml:1", "unknown key invariant"});
+  expect_one_line(message("[invariant]\nzero = 0.0\n"), {"v.toml:1", "unknown section invariant"});
   expect_one_line(message("[elsewhere]\nxyz = 0.0\n"), {"v.toml:1", "config/validate.toml"});
   expect_one_line(message("[invariants]\nzero = \"none\"\n"),
                   {"v.toml:2", "invariants.zero = \"none\"", "a number in [0, 1e+300]"});
   expect_one_line(message("[invariants]\nsamples = 10\n"),
                   {"v.toml:2", "invariants.samples = 10", "[1024, 65536]"});
   expect_one_line(message("[invariants]\nbelow_horizon = 2\n"), {"v.toml:2", "[0, 1]"});
-  expect_one_line(message("[invariants\n"), {"v.toml:1", "not TOML"});
+  expect_one_line(message("[invariants\n"), {"v.toml:1", "not TOML", "config/validate.toml lists"});
   const std::vector<std::string> overrides = {"invariants.samples"};
   expect_one_line(message_of<InputError>([&] { load_validate_settings(std::nullopt, overrides); }),
                   {"override invariants.samples", "key=value"});

@@ -60,6 +60,21 @@ TEST(TiledMap, CellsWithoutAValueAreGreyAndHatched) {
     }
   EXPECT_NEAR(lightest, missing.red, 0.01);
   EXPECT_LT(darkest, missing.red - 0.1);
+  // And the key says what it means: without such a cell, that line is white.
+  const auto is_written = [](const TiledMap& drawn) {
+    const Canvas picture = render(drawn);
+    const Box key = lay_out(drawn).key;
+    const double top = key.top + 3 * line_spacing * drawn.font_size;
+    for (double y = top; y < key.bottom(); ++y)
+      for (double x = key.left; x < key.right(); ++x)
+        if (picture.pixel(static_cast<int>(x), static_cast<int>(y)).red < 0.5)
+          return true;
+    return false;
+  };
+  EXPECT_TRUE(is_written(map));
+  std::replace_if(
+      map.values.begin(), map.values.end(), [](float value) { return std::isnan(value); }, 1.0f);
+  EXPECT_FALSE(is_written(map));
 }
 
 TEST(TiledMap, MarksRingTheirCellAndLeaveItVisible) {

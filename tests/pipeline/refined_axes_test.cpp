@@ -10,6 +10,7 @@
 #include "pipeline/fit_one.h"
 #include "pipeline/generate.h"
 #include "support/refusal.h"
+#include "table/query_range.h"
 
 namespace ltc {
 namespace {
@@ -24,8 +25,9 @@ Config config_on(const Grid& grid, int refine_steps) {
 }
 
 // Judged on other queries and samples than those that the refinement knows.
-QualityReport quality_of(const Grid& grid, int refine_steps, GenerateReport* report) {
+QualitySettings effort_on(const Grid& grid) {
   QualitySettings settings;
+  settings.range = query_range_of(grid, settings.range);
   settings.most_nodes = 0;
   settings.queries = 150;
   settings.query_samples = 2048;
@@ -33,15 +35,20 @@ QualityReport quality_of(const Grid& grid, int refine_steps, GenerateReport* rep
   settings.quads = 1;
   settings.quad_samples = 64;
   settings.floor_fit.gauss_newton.starts = 1;
-  return measure_quality(generate_table(config_on(grid, refine_steps), {2}, report), settings, {2});
+  return settings;
 }
 
 // `share` is what refinement leaves of the error, `over_floor` how far that is above an LTC of each
 // lobe's own; bounds are a tenth above what was measured.
 void expect_refined_to_be_better(const Grid& grid, double share, double over_floor) {
   GenerateReport report;
-  const QualityReport plain = quality_of(grid, 0, nullptr);
-  const QualityReport refined = quality_of(grid, 6, &report);
+  const QualitySettings effort = effort_on(grid);
+  const std::vector<QueryFloor> floors = fit_queries(effort, grid, {2});
+  const auto quality_of = [&](int refine_steps) {
+    const Table table = generate_table(config_on(grid, refine_steps), {2}, &report);
+    return measure_quality(table, effort, floors, {2});
+  };
+  const QualityReport plain = quality_of(0), refined = quality_of(6);
   EXPECT_TRUE(report.refine->kept);
   EXPECT_TRUE(report.range_served);
   EXPECT_EQ(refined.queries_outside, 0u);

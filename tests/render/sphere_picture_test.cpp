@@ -64,6 +64,26 @@ TEST(SpherePicture, ShowsWhereATableHasNothing) {
   EXPECT_GE(count_of(draw(content), picture::Color::hex(0xb8b8b8)), 2 * 9 * 200 * 200 / 10);
 }
 
+// Of small spheres rows are as high as what stands beside them: 3 lines and, a table, 4 more, in
+// the smallest font that there is.
+TEST(SpherePicture, HasRoomForTheWordsOfTwoTables) {
+  const auto row_height = [](std::size_t size, std::size_t tables) {
+    SpherePicture content;
+    content.tables = std::vector<std::string>(tables, "LTC");
+    SphereRow row = flat_row(size, 0.2f, 0.1f);
+    row.images.ltc.resize(tables, row.images.ltc[0]);
+    content.rows = {row};
+    const int one = draw(content).height();
+    content.rows.push_back(row);
+    return draw(content).height() - one;
+  };
+  EXPECT_NEAR(row_height(8, 1), 160 + 0.7 * 12, 1);  // the least of an image, and a gap
+  const double lines = 2 * 12 + (1 + 2 * 4) * 0.8 * 12;
+  EXPECT_GE(row_height(8, 2), 1.2 * lines);
+  EXPECT_GT(row_height(8, 2), row_height(8, 1));
+  EXPECT_EQ(row_height(320, 2), row_height(320, 1));
+}
+
 TEST(SpherePicture, RefusesNothing) {
   SpherePicture content;
   EXPECT_THROW(draw(content), InputError);

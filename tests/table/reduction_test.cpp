@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "brdf/separable_ggx.h"
 #include "table/lookup.h"
 #include "table/query_range.h"
 #include "table/synthetic.h"
@@ -72,6 +73,13 @@ TEST(Reduction, ATurnedLookUpIsTheLobes) {
     // A matrix stands for its lobe up to a rotation of the cosine: compare M M^T. From floats.
     EXPECT_LT((found * found.transpose() - wanted * wanted.transpose()).norm(), 1e-6) << phi;
   }
+}
+
+TEST(Reduction, KeepsTheModel) {
+  const Grid turning = isotropic_grid(), folding = Grid::paper(2);
+  for (const Grid* grid : {&turning, &folding})
+    EXPECT_EQ(Reduction(*grid).fold({0.2, 0.3, 1, 4, &test::separable_ggx()}).lobe.model,
+              &test::separable_ggx());
 }
 
 TEST(Reduction, CoversWhatATableServes) {
