@@ -72,13 +72,21 @@ install_packages() {
     fail "apt-get could not install: ${missing[*]}"
 }
 
-# Readers for Node.js that the tests check our files with: where npm is at hand. Without them, those
-# tests are skipped and say so.
-install_node_readers() {
-  [[ ! -d tests/node_modules ]] && command -v npm >/dev/null || return 0
-  say "installing the tests' packages for Node.js"
-  npm ci --prefix tests --silent --no-audit --no-fund --ignore-scripts ||
+# Installs a folder's packages for Node.js that tests run. Without them, those tests are skipped and
+# say so.
+install_node_packages() {
+  local folder=$1
+  [[ ! -d $folder/node_modules ]] || return 0
+  say "installing the packages for Node.js of $folder"
+  npm ci --prefix "$folder" --silent --no-audit --no-fund --ignore-scripts ||
     say "npm could not install them: their tests are skipped"
+}
+
+# Readers of our files, where npm is at hand; three.js, where there is a browser for it too.
+install_node_readers() {
+  command -v npm >/dev/null || return 0
+  install_node_packages tests
+  ! command -v chromium >/dev/null || install_node_packages examples/three
 }
 
 # Configures and builds a preset, or only the targets named after it; quiet unless it fails.
