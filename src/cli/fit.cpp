@@ -224,10 +224,9 @@ void require_one_name(const Arguments& arguments) {
 
 // What the table holds for the lobe; nothing is fitted but the floor.
 void show_as_in(const Arguments& arguments, const RunContext& run) {
-  StoredReport report{arguments.as_in,
-                      contents_of(arguments.as_in),
-                      read_input(arguments.as_in, arguments.layout),
-                      {}};
+  Table table = read_input(arguments.as_in, arguments.layout);
+  const TableContents contents = contents_of(arguments.as_in, table);
+  StoredReport report{arguments.as_in, contents, std::move(table), {}};
   const auto named = [&](auto&& action) {
     try {
       return action();

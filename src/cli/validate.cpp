@@ -54,7 +54,7 @@ void validate(const Arguments& arguments, Files& files) {
       load_validate_settings(arguments.config.path(), arguments.config.overrides,
                              settings_for(report.table), ConfigArguments::override_option);
   report.invariants =
-      check_invariants(report.table, settings.invariants, run, contents_of(arguments.table));
+      check_invariants(report.table, settings.invariants, run, contents_of(arguments.table, report.table));
   if (!arguments.no_quality) {
     report.quality = measure_quality(report.table, settings.quality, run);
     report.thresholds = check_thresholds(*report.quality, settings.thresholds, settings.said);

@@ -45,7 +45,8 @@ void check_together(const Draft& draft, const config::Sources& sources) {
   constexpr std::array formats = {
       &OutputSettings::hdf5, &OutputSettings::exr,        &OutputSettings::npy,
       &OutputSettings::dds,  &OutputSettings::ktx2,       &OutputSettings::json,
-      &OutputSettings::raw,  &OutputSettings::javascript, &OutputSettings::c_header};
+      &OutputSettings::raw,  &OutputSettings::javascript, &OutputSettings::c_header,
+      &OutputSettings::c_sharp};
   if (std::ranges::none_of(formats, [&](bool OutputSettings::*format) { return output.*format; }))
     throw InputError(
         fmt::format("{}: no format of [output] is true; expected at least one true, such as output.hdf5",

@@ -11,23 +11,38 @@ namespace ltc {
 
 // How the values of a table lie in textures (export/texture_layout.h).
 enum class TextureLayout {
-  automatic,    // `ltc` for tables that it can hold, else `volumes`
-  ltc,          // two images, as in ltc_code since October 2017 and in most engines
-  ltc_2017_07,  // the same of July 2017: another order, another scale; read only
-  eight,        // those of `ltc` in one image of eight channels
-  volumes,      // three 3-D images, the texels of the OpenEXR textures
-  stacked,      // those three one behind the other in one 3-D image
-  array,        // the same as layers
+  automatic,  // `ltc` for tables that it can hold, else `volumes`
+  ltc,        // two images, as in ltc_code since October 2017 and in most engines
+  eight,      // those of `ltc` in one image of eight channels
+  unity,      // one image, the inverse with the last entry 1
+  godot,      // two images, the matrix itself over theta
+  volumes,    // three 3-D images, the texels of the OpenEXR textures
+  stacked,    // those three one behind the other in one 3-D image
+  array,      // the same as layers
+  // Read only:
+  ltc_2017_07,      // as `ltc` in another order and of another scale
+  ltc_2017_06,      // over theta, the first entry 1; amplitudes apart
+  columns,          // nine values, the matrix column by column
+  inverse_columns,  // nine values, the inverse column by column
+  rows,             // nine values, the matrix row by row, over alpha and theta
+  rows_sqrt,        // the same over sqrt(alpha) and theta
 };
-constexpr EnumNames<TextureLayout, 7> enum_names(TextureLayout) {
+constexpr EnumNames<TextureLayout, 14> enum_names(TextureLayout) {
   return {"layout of textures",
           {{{TextureLayout::automatic, "automatic"},
             {TextureLayout::ltc, "ltc"},
-            {TextureLayout::ltc_2017_07, "ltc-2017-07"},
             {TextureLayout::eight, "eight"},
+            {TextureLayout::unity, "unity"},
+            {TextureLayout::godot, "godot"},
             {TextureLayout::volumes, "volumes"},
             {TextureLayout::stacked, "stacked"},
-            {TextureLayout::array, "array"}}}};
+            {TextureLayout::array, "array"},
+            {TextureLayout::ltc_2017_07, "ltc-2017-07"},
+            {TextureLayout::ltc_2017_06, "ltc-2017-06"},
+            {TextureLayout::columns, "columns"},
+            {TextureLayout::inverse_columns, "inverse-columns"},
+            {TextureLayout::rows, "rows"},
+            {TextureLayout::rows_sqrt, "rows-sqrt"}}}};
 }
 
 // What a JavaScript file is.
@@ -49,6 +64,7 @@ struct OutputSettings {
   bool json = false;
   bool javascript = false;
   bool c_header = false;
+  bool c_sharp = false;
   bool raw = false;
   bool exr_half = false;  // 16-bit OpenEXR instead of 32-bit
   bool half = true;       // 16-bit values in DDS, KTX2 and raw files

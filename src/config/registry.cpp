@@ -115,6 +115,7 @@ std::vector<Key> output_keys() {
       key("output.json", [](Draft& d) { return &d.config.output.json; }, "write the textures as JSON arrays"),
       key("output.javascript", [](Draft& d) { return &d.config.output.javascript; }, "write the textures as a JavaScript module"),
       key("output.c_header", [](Draft& d) { return &d.config.output.c_header; }, "write the textures as a C header"),
+      key("output.c_sharp", [](Draft& d) { return &d.config.output.c_sharp; }, "write the texture as Unity's C#; needs layout = \"unity\""),
       key("output.raw", [](Draft& d) { return &d.config.output.raw; }, "write the textures' bytes, with a JSON file beside that describes them"),
       key("output.exr_half", [](Draft& d) { return &d.config.output.exr_half; }, "16-bit OpenEXR instead of 32-bit"),
       key("output.half", [](Draft& d) { return &d.config.output.half; }, "16-bit values in DDS, KTX2 and raw files, else 32-bit"),

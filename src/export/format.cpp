@@ -9,15 +9,15 @@ namespace ltc {
 
 // Each in the file of its name.
 Format hdf5_format(), exr_format(), npy_format(), dds_format(), ktx2_format(), raw_format(),
-    json_format(), javascript_format(), c_header_format();
+    json_format(), javascript_format(), c_header_format(), c_sharp_format(), octave_format();
 
 namespace {
 
 std::list<Format>& list() {
-  static std::list<Format> all = {
-      hdf5_format(), exr_format(),        npy_format(),
-      dds_format(),  ktx2_format(),       raw_format(),  // .bin.json first
-      json_format(), javascript_format(), c_header_format()};
+  static std::list<Format> all = {hdf5_format(),    exr_format(),        npy_format(),
+                                  dds_format(),     ktx2_format(),       raw_format(),
+                                  json_format(),    javascript_format(), c_header_format(),
+                                  c_sharp_format(), octave_format()};
   return all;
 }
 
@@ -31,7 +31,8 @@ TableFiles named(const std::filesystem::path& prefix, const std::vector<std::str
 }  // namespace
 
 TableFiles Format::files(const std::filesystem::path& prefix, TextureLayout layout) const {
-  return named(prefix, sets[set_for ? set_for(layout) : 0]);
+  const std::size_t index = set_for ? set_for(layout) : 0;
+  return named(prefix, index < sets.size() ? sets[index] : named_sets[index - sets.size()]);
 }
 
 TableFiles Format::all_files(const std::filesystem::path& prefix) const {
@@ -63,14 +64,18 @@ const Format* find_format(const std::filesystem::path& file) {
 
 NamedSet set_of(const std::filesystem::path& file) {
   const std::string name = file.string();
+  NamedSet found{nullptr, file, {file}};
+  std::size_t longest = 0;
   for (const Format& format : formats())
-    for (const std::vector<std::string>& endings : format.sets)
-      for (const std::string& ending : endings)
-        if (name.ends_with(ending)) {
-          const std::filesystem::path prefix = name.substr(0, name.size() - ending.size());
-          return {&format, prefix, named(prefix, endings)};
-        }
-  return {nullptr, file, {file}};
+    for (const auto* const sets : {&format.sets, &format.named_sets})
+      for (const std::vector<std::string>& endings : *sets)
+        for (const std::string& ending : endings)
+          if (name.ends_with(ending) && ending.size() > longest) {
+            longest = ending.size();
+            const std::filesystem::path prefix = name.substr(0, name.size() - longest);
+            found = {&format, prefix, named(prefix, endings)};
+          }
+  return found;
 }
 
 WriteOptions write_options(const Format& format, const OutputSettings& output) {

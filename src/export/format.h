@@ -54,7 +54,9 @@ struct Format {
   // Whether others use such names for files of their own, so that none is removed as an older one
   // of the set.
   bool ending_of_others = false;
-  // Which of the sets is written; null: the first.
+  // Sets that are called as others call them: read, and written by the layouts that are theirs.
+  std::vector<std::vector<std::string>> named_sets = {};
+  // Which of the sets is written, those with names after the others; null: the first.
   std::function<std::size_t(TextureLayout layout)> set_for = {};
   // Why it cannot hold tables of this grid, storage and layout, after "it"; empty where it can.
   // Null: it holds all.
@@ -70,7 +72,7 @@ struct Format {
 
   // Those that are written, `layout` resolved.
   TableFiles files(const std::filesystem::path& prefix, TextureLayout layout) const;
-  // Those that any layout writes.
+  // Those that any layout writes under names of ours.
   TableFiles all_files(const std::filesystem::path& prefix) const;
   // The same for any format: one that names its axes calls them alpha and lambda.
   std::string why_not(const Grid& grid, Storage storage, TextureLayout layout) const;

@@ -200,8 +200,7 @@ Format hdf5_format() {
           .sets = {{".h5"}},
           .asked = &OutputSettings::hdf5,
           .entry_bytes = 12 * 4 + 3,  // matrix, albedos, loss; status, steps
-          .read = [](const TableFiles& files,
-                     const ReadAs&) { return read_hdf5(files.front()); },
+          .read = [](const TableFiles& files, const ReadAs&) { return read_hdf5(files.front()); },
           .add = [](platform::FileSet& set, const Table& table, const TableFiles& files,
                     const WriteOptions&) { add_hdf5(set, table, files.front()); }};
 }

@@ -24,7 +24,7 @@ struct Image {
   ImageShape shape = ImageShape::flat;
   std::size_t width = 0, height = 0;
   std::size_t layers = 1;    // or slices
-  std::size_t channels = 4;  // 1 to 8; textures have 1 to 4
+  std::size_t channels = 4;  // 1 to 9; textures have 1 to 4
   Precision precision = Precision::single;
   std::vector<float> values;
 
@@ -34,6 +34,7 @@ struct Image {
 
 // Larger images are refused before memory is taken for them: the largest table as one texture.
 inline constexpr std::size_t max_image_side = 16384;
+inline constexpr std::size_t most_channels = 9;  // a whole matrix
 inline constexpr std::size_t max_image_values = std::size_t{3} << 26;
 
 }  // namespace ltc

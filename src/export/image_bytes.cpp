@@ -46,9 +46,9 @@ void require_size(const Image& image, std::string_view where) {
   const std::string size = fmt::format("{} x {} x {} texels of {} channels", image.width,
                                        image.height, image.layers, image.channels);
   if (!side(image.width) || !side(image.height) || !side(image.layers) || image.channels < 1 ||
-      image.channels > 8)
-    throw InputError(fmt::format("{}: {}; allowed: 1 to {} texels a side, 1 to 8 channels", where,
-                                 size, max_image_side));
+      image.channels > most_channels)
+    throw InputError(fmt::format("{}: {}; allowed: 1 to {} texels a side, 1 to {} channels", where,
+                                 size, max_image_side, most_channels));
   if (value_count(image) > max_image_values)
     throw InputError(
         fmt::format("{}: {}; allowed: up to {} values", where, size, max_image_values));

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -92,6 +93,17 @@ std::vector<std::size_t> parse_shape(std::string_view text, const fs::path& path
   return shape;
 }
 
+// The axes of the isotropic table that Aakash et al. publish beside theirs.
+Grid isotropic_grid_of_paper(std::size_t alphas, std::size_t thetas) {
+  Grid grid;
+  grid.alpha = Axis::make(0, 1, alphas, Warp::linear);
+  grid.lambda = Axis::make(1, 1, 1, Warp::linear);
+  grid.theta = Axis::make(0, 0.99 * std::numbers::pi / 2, thetas, Warp::linear);
+  grid.phi = Axis::make(0, 0, 1, Warp::linear);
+  grid.alpha_min = 0.01;
+  return grid;
+}
+
 Grid read_grid(std::string_view dictionary, const fs::path& path) {
   if (const auto type = entry_of(dictionary, "descr", ",}", path); type != "'<f4'")
     refuse_file(path, fmt::format("type of the array is {}; allowed: '<f4'", type));
@@ -100,12 +112,15 @@ Grid read_grid(std::string_view dictionary, const fs::path& path) {
   const auto shape = parse_shape(entry_of(dictionary, "shape", ")", path), path);
   const bool nodes_allowed = std::all_of(
       shape.begin(), shape.end(), [](std::size_t n) { return n >= 1 && n <= max_nodes_per_axis; });
-  if (shape.size() != 6 || !nodes_allowed || shape[4] != 3 || shape[5] != 3)
+  const bool matrices =
+      shape.size() >= 2 && shape[shape.size() - 1] == 3 && shape[shape.size() - 2] == 3;
+  if ((shape.size() != 6 && shape.size() != 4) || !nodes_allowed || !matrices)
     refuse_file(path,
                 fmt::format("shape of the array is ({}); allowed: (Nalpha, Nlambda, Ntheta, Nphi, "
-                            "3, 3) with 1 to {} nodes each",
+                            "3, 3) or (Nalpha, Ntheta, 3, 3) with 1 to {} nodes each",
                             fmt::join(shape, ", "), max_nodes_per_axis));
-  return Grid::paper({shape[0], shape[1], shape[2], shape[3]});
+  return shape.size() == 6 ? Grid::paper({shape[0], shape[1], shape[2], shape[3]})
+                           : isotropic_grid_of_paper(shape[0], shape[1]);
 }
 
 // Reads what follows the header; takes memory only once the file is known to have it.

@@ -24,8 +24,40 @@ namespace fs = std::filesystem;
 
 using Size = std::vector<std::uint64_t>;
 
-// Walks over a program of JavaScript or C without understanding it: what counts is NAME = [ or
-// NAME[...] = {, followed by a number.
+// How many values or lists the lists of each depth have, from the outermost on; none of one depth
+// where they differ.
+class Nesting {
+ public:
+  void open() { counts_.push_back(0); }
+  void add() { ++counts_.back(); }
+  void close() {
+    const std::size_t depth = counts_.size() - 1, count = counts_.back();
+    counts_.pop_back();
+    if (depth >= sizes_.size())
+      sizes_.resize(depth + 1, unknown);
+    sizes_[depth] = sizes_[depth] == unknown || sizes_[depth] == count ? count : uneven;
+    if (!counts_.empty())
+      ++counts_.back();
+  }
+
+  // [height][width][channels], or [n^2][channels] of a square; nothing where it is neither.
+  std::optional<Size> size() const {
+    const std::size_t depth = sizes_.size();
+    if (depth < 2 || depth > 3 || std::ranges::find(sizes_, uneven) != sizes_.end())
+      return std::nullopt;
+    if (depth == 3)
+      return Size{sizes_[1], sizes_[0], 1, sizes_[2]};
+    const auto side = static_cast<std::size_t>(std::lround(std::sqrt(sizes_[0])));
+    return side * side == sizes_[0] ? std::optional(Size{side, side, 1, sizes_[1]}) : std::nullopt;
+  }
+
+ private:
+  static constexpr std::size_t unknown = SIZE_MAX, uneven = SIZE_MAX - 1;
+  std::vector<std::size_t> counts_, sizes_;
+};
+
+// Walks over a program of JavaScript, C or C# without understanding it: what counts is NAME = [,
+// NAME[...] = { or NAME = new TYPE[...] {, followed by a number.
 class Walker {
  public:
   Walker(std::string_view text, const fs::path& file) : text_(text), file_(file) {}
@@ -43,11 +75,17 @@ class Walker {
       } else if (c == '=' && !name.empty()) {
         ++at_;
         skip_blanks();
+        const bool halves = skip_new();
         std::vector<float> values;
-        if (list(name, values)) {
+        Nesting nesting;
+        if (list(name, values, nesting)) {
           if (!names.insert(name).second)
             refuse_file(file_, fmt::format("the list {} stands twice", name));
-          found.push_back(image_of_list(name, std::move(values), size_, file_));
+          if (halves)
+            values = halves_of(values, name);
+          found.push_back(
+              image_of_list(name, std::move(values), size_ ? size_ : nesting.size(), file_));
+          found.back().precision = halves ? Precision::half : Precision::single;
           size_.reset();
         }
         name.clear();
@@ -113,8 +151,33 @@ class Walker {
     ++at_;
   }
 
+  // C#'s "new double[64 * 64, 9]". Whether the type is that of the bits of halves.
+  bool skip_new() {
+    if (!follows("new") ||
+        is_of_identifier(text_.substr(at_ + 3, 1).empty() ? ' ' : text_[at_ + 3]))
+      return false;
+    word();
+    skip_blanks();
+    const std::string type = word();
+    skip_blanks();
+    if (peek() == '[')
+      skip_to(']');
+    return type == "ushort";
+  }
+
+  std::vector<float> halves_of(const std::vector<float>& bits, std::string_view name) const {
+    std::string bytes(2 * bits.size(), '\0');
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+      if (!(bits[i] >= 0 && bits[i] <= 65535 && bits[i] == std::floor(bits[i])))
+        refuse_file(file_, fmt::format("list {}: {}; allowed: the bits of a half, 0 to 65535", name,
+                                       bits[i]));
+      put_number(bytes, 2 * i, static_cast<std::uint16_t>(bits[i]));
+    }
+    return values_of(bytes, Precision::half);
+  }
+
   // The numbers of [ ... ] or { ... }, nested ones too; false if it is no list of numbers at all.
-  bool list(std::string_view name, std::vector<float>& values) {
+  bool list(std::string_view name, std::vector<float>& values, Nesting& nesting) {
     std::string open;          // the brackets still to close
     bool after_value = false;  // a comma or the end must follow
     do {
@@ -124,11 +187,13 @@ class Walker {
         if (after_value)
           refuse_list(name, "a comma");
         open += c == '[' ? ']' : '}';
+        nesting.open();
         ++at_;
       } else if (open.empty()) {
         return false;
       } else if (c == open.back()) {
         open.pop_back();
+        nesting.close();
         after_value = true;
         ++at_;
       } else if (c == ',' && after_value) {
@@ -136,6 +201,7 @@ class Walker {
         ++at_;
       } else if (!after_value && starts_number()) {
         values.push_back(number(name));
+        nesting.add();
         after_value = true;
       } else if (values.empty() && !starts_not_finite()) {
         return false;
@@ -251,7 +317,17 @@ Image image_of_list(const std::string& name, std::vector<float> values,
 }
 
 std::vector<Image> decode_number_lists(std::string_view text, const fs::path& file) {
-  return Walker(text, file).images();
+  std::vector<Image> images = Walker(text, file).images();
+  // Beside matrices, a bare list of one number each has no other shape than theirs.
+  const auto matrices = std::ranges::find(images, most_channels, &Image::channels);
+  if (matrices != images.end())
+    for (Image& image : images)
+      if (image.channels == 4 && image.values.size() == matrices->texels()) {
+        image.width = matrices->width;
+        image.height = matrices->height;
+        image.channels = 1;
+      }
+  return images;
 }
 
 }  // namespace ltc

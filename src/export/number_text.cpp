@@ -227,6 +227,26 @@ std::string encode_c_header(const std::vector<Image>& images, std::string_view g
   return text + "\n#endif\n";
 }
 
+std::string encode_c_sharp(const std::vector<Image>& images) {
+  require_writable(images, is_identifier, identifier_rule);
+  std::string text =
+      "namespace UnityEngine.Rendering.HighDefinition\n{\n"
+      "    internal partial class LTCAreaLight\n    {\n";
+  for (Image image : images) {
+    image.precision = Precision::half;
+    require_storable(image);
+    text +=
+        fmt::format("        internal static ushort[] {} = new ushort[{} * {} * {}]\n        {{",
+                    image.name, image.width, image.height * image.layers, image.channels);
+    const std::string bytes = value_bytes(image);
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+      text += fmt::format("{}{},", i % image.channels ? " " : "\n            ",
+                          number_at<std::uint16_t>(bytes, 2 * i));
+    text += "\n        };\n";
+  }
+  return text + "    }\n}\n";
+}
+
 std::vector<Image> decode_json(std::string_view text, const fs::path& file) {
   Collector collector(file);
   nlohmann::json::sax_parse(text.begin(), text.end(), &collector);

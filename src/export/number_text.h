@@ -23,7 +23,11 @@ std::string encode_javascript(const std::vector<Image>& images,
 // static const float ltc_1[16384] = {...}; between the lines of an include guard.
 std::string encode_c_header(const std::vector<Image>& images, std::string_view guard_name);
 
-// All three throw InputError for no images, for names that the language does not allow or that
+// Unity's table as a part of its class LTCAreaLight: the bits of halves,
+// internal static ushort[] s_LtcMatrixData_BRDF_GGX = new ushort[64 * 64 * 4] {...};
+std::string encode_c_sharp(const std::vector<Image>& images);
+
+// All throw InputError for no images, for names that the language does not allow or that
 // stand twice, and for values that are not finite or beyond the precision.
 
 // The readers below give images of single precision, flat or, of several layers, arrays. A file
@@ -34,8 +38,10 @@ std::string encode_c_header(const std::vector<Image>& images, std::string_view g
 // An object of named lists of numbers, as encode_json makes it or without its "size".
 std::vector<Image> decode_json(std::string_view text, const std::filesystem::path& file);
 
-// The lists of numbers in JavaScript or C: NAME = [...] or NAME[16384] = {...}, nested as they
-// like; whatever else the file has is passed over.
+// The lists of numbers in JavaScript, C or C#: NAME = [...], NAME[16384] = {...} or NAME = new
+// double[...] {...}, where "ushort" is the bits of halves. Lists of lists are read as
+// [rows][columns] [channels] or [texels of a square][channels], if these are even; whatever else
+// the file has is passed over.
 std::vector<Image> decode_number_lists(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace ltc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Tables as numbers in text: JSON, a JavaScript module, a C header.
+// Tables as numbers in text: JSON, a JavaScript module, a C header, Unity's C#.
 #include <fmt/format.h>
 
 #include <cctype>
@@ -98,11 +98,24 @@ Format javascript_format() {
        .decode = decode_lists});
 }
 
+Format c_sharp_format() {
+  return texture_format(
+      {.name = "C#",
+       .endings = {".cs"},
+       .asked = &OutputSettings::c_sharp,
+       .only = TextureLayout::unity,
+       .ending_of_others = true,
+       .encode = [](const std::vector<Image>& images, const TableFiles&,
+                    const WriteOptions&) { return std::vector{encode_c_sharp(images)}; },
+       .decode = decode_lists});
+}
+
 Format c_header_format() {
   return texture_format(
       {.name = "C header",
        .endings = {".h"},
        .asked = &OutputSettings::c_header,
+       .named = {{TextureLayout::columns, {".inc"}}, {TextureLayout::rows, {".inl"}}},
        .ending_of_others = true,
        .encode =
            [](const std::vector<Image>& images, const TableFiles& files, const WriteOptions&) {

@@ -19,7 +19,9 @@ Format raw_format() {
            },
        .decode =
            [](const std::vector<NamedBytes>& files) {
-             return decode_raw(files[0].bytes, files[1].bytes, files[0].file, files[1].file);
+             return files.size() == 1
+                        ? decode_bare(files[0].bytes, files[0].file)
+                        : decode_raw(files[0].bytes, files[1].bytes, files[0].file, files[1].file);
            }});
 }
 

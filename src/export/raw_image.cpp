@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "export/raw_image.h"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -135,6 +136,28 @@ std::vector<Image> decode_raw(std::string_view bytes, std::string_view descripti
     image.values = values_of(bytes.substr(begin, byte_count(image)), image.precision);
     begin += byte_count(image);
   }
+  return images;
+}
+
+std::vector<Image> decode_bare(std::string_view bytes, const fs::path& file) {
+  const std::string_view mark("\0\0\1\0", 4);  // PlayCanvas' 0 and 1
+  const bool marked = bytes.starts_with(mark) && bytes.size() % 16 == mark.size();
+  const std::size_t begin = marked ? mark.size() : 0, texel_bytes = marked ? 32 : 16;
+  Image image;
+  image.width = image.height = static_cast<std::size_t>(
+      std::lround(std::sqrt(static_cast<double>((bytes.size() - begin) / texel_bytes))));
+  image.channels = marked ? 4 : 8;
+  image.precision = marked ? Precision::single : Precision::half;
+  std::vector<Image> images(marked ? 2 : 1, image);
+  const std::size_t size = byte_count(image);
+  if (size == 0 || bytes.size() != begin + images.size() * size)
+    refuse_file(file, fmt::format("{} bytes long, and no {}.json beside it says what they are; "
+                                  "allowed without: 16 n^2 bytes, a square of eight halfs, or "
+                                  "PlayCanvas' two squares of four floats",
+                                  bytes.size(), file.filename().string()));
+  require_size(image, file.string());
+  for (std::size_t i = 0; i < images.size(); ++i)
+    images[i].values = values_of(bytes.substr(begin + i * size, size), image.precision);
   return images;
 }
 

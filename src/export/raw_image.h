@@ -23,4 +23,9 @@ std::vector<Image> decode_raw(std::string_view bytes, std::string_view descripti
                               const std::filesystem::path& file,
                               const std::filesystem::path& description_file);
 
+// Those of engines, which have no description, told by their length: PlayCanvas' two images of
+// four floats after the numbers 0 and 1 of 16 bits, and Babylon's one of eight halfs; square ones.
+// Throws InputError for anything else.
+std::vector<Image> decode_bare(std::string_view bytes, const std::filesystem::path& file);
+
 }  // namespace ltc

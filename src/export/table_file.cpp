@@ -58,8 +58,10 @@ TableFiles files_of_table(const std::filesystem::path& path) {
   return set_of(path).files;
 }
 
-TableContents contents_of(const std::filesystem::path& path) {
-  return require_set(path).format->contents;
+TableContents contents_of(const std::filesystem::path& path, const Table& table) {
+  TableContents contents = require_set(path).format->contents;
+  contents.albedo = contents.albedo && !table.without_albedo;
+  return contents;
 }
 
 bool is_whole_table(const std::filesystem::path& path) {

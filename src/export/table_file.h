@@ -29,8 +29,9 @@ void add_table(platform::FileSet& set, const Table& table, const Format& format,
 // All files that read_table reads for this one; of a name that no format ends in, itself.
 TableFiles files_of_table(const std::filesystem::path& path);
 
-// What a file of such a name holds. Throws as read_table for a name that no format ends in.
-TableContents contents_of(const std::filesystem::path& path);
+// What the file holds that the table was read from. Throws as read_table for a name that no format
+// ends in.
+TableContents contents_of(const std::filesystem::path& path, const Table& table);
 
 // Whether it is of a format that keeps_fits.
 bool is_whole_table(const std::filesystem::path& path);

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "core/read_file.h"
 #include "core/write_file.h"
 
@@ -26,7 +28,17 @@ std::vector<std::vector<std::string>> sets_of(const Container& container) {
   return sets;
 }
 
+std::vector<std::vector<std::string>> named_sets_of(const Container& container) {
+  std::vector<std::vector<std::string>> sets;
+  for (const NamedLayout& named : container.named)
+    sets.push_back(named.endings);
+  return sets;
+}
+
 std::size_t set_for(const Container& container, TextureLayout layout) {
+  const auto named = std::ranges::find(container.named, layout, &NamedLayout::layout);
+  if (named != container.named.end())
+    return sets_of(container).size() + static_cast<std::size_t>(named - container.named.begin());
   const std::size_t images = image_count(layout);
   if (images == 2 && container.two_files)
     return 0;
@@ -44,22 +56,29 @@ NamedBytes read(const std::filesystem::path& file) {
   return {file, read_whole_file(file, "table", most_bytes)};
 }
 
-// A file beside the first may be missing: tables of matrices alone have one texture.
-std::vector<Image> decode_each(const Container& container, const TableFiles& files) {
-  std::vector<Image> images;
+// A file beside the first may be missing: tables of matrices alone have one texture, and others'
+// raw files no description.
+std::vector<Image> decode_all(const Container& container, const TableFiles& files) {
+  std::vector<NamedBytes> bytes;
   std::error_code ignored;
   for (const std::filesystem::path& file : files)
     if (&file == &files.front() || std::filesystem::exists(file, ignored))
-      std::ranges::move(container.decode({read(file)}), std::back_inserter(images));
+      bytes.push_back(read(file));
+  if (!has_file_each(container, files))
+    return container.decode(bytes);
+  std::vector<Image> images;
+  for (const NamedBytes& one : bytes)
+    std::ranges::move(container.decode({one}), std::back_inserter(images));
   return images;
 }
 
-std::vector<Image> decode_all(const Container& container, const TableFiles& files) {
-  if (has_file_each(container, files))
-    return decode_each(container, files);
-  std::vector<NamedBytes> bytes;
-  std::ranges::transform(files, std::back_inserter(bytes), read);
-  return container.decode(bytes);
+std::string limits(const Container& container, const Grid& grid, Storage storage,
+                   TextureLayout layout) {
+  if (!container.encode)
+    return "is read only";
+  if (container.only && layout != *container.only)
+    return fmt::format("holds layout {} only", name_of(*container.only));
+  return why_not(layout, grid, storage);
 }
 
 void add(const Container& container, platform::FileSet& set, const Table& table,
@@ -87,9 +106,11 @@ Format texture_format(const Container& container) {
           .entry_bytes = 12 * sizeof(float),
           .half = container.half,
           .ending_of_others = container.ending_of_others,
+          .named_sets = named_sets_of(container),
           .set_for = [container](TextureLayout layout) { return set_for(container, layout); },
-          .limits = [](const Grid& grid, Storage storage,
-                       TextureLayout layout) { return why_not(layout, grid, storage); },
+          .limits = [container](
+                        const Grid& grid, Storage storage,
+                        TextureLayout layout) { return limits(container, grid, storage, layout); },
           .read =
               [container](const TableFiles& files, const ReadAs& as) {
                 return table_of(decode_all(container, files), as.textures, files.front());

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,12 @@ struct NamedBytes {
   std::string bytes;
 };
 
+// A layout whose images have files of their own, called as others call them.
+struct NamedLayout {
+  TextureLayout layout;
+  std::vector<std::string> endings;
+};
+
 struct Container {
   std::string name;
   std::vector<std::string> endings;  // of the files of one set that holds all images
@@ -25,10 +32,14 @@ struct Container {
   // Whether the images of layouts that have several go to files of their own: "_1", "_2" of two and
   // ".0", ".1", ".2" of three before the ending.
   bool two_files = false, three_files = false;
-  bool ending_of_others = false;  // as of Format
-  // The bytes of each file; of images that have files of their own, called with one at a time.
+  std::vector<NamedLayout> named = {};
+  std::optional<TextureLayout> only = std::nullopt;  // the one layout that it holds
+  bool ending_of_others = false;                     // as of Format
+  // The bytes of each file; of images that have files of their own, called with one at a time. Null
+  // where files are only read.
   std::vector<std::string> (*encode)(const std::vector<Image>& images, const TableFiles& files,
                                      const WriteOptions& options) = nullptr;
+  // Of the files that there are, the first of a set at least.
   std::vector<Image> (*decode)(const std::vector<NamedBytes>& files) = nullptr;
 };
 

@@ -75,8 +75,9 @@ Table::Table(ltc::Table table, bool has_albedo, bool has_loss)
     : data_(std::make_shared<Data>(Data{std::move(table), {has_albedo, has_loss}})) {}
 
 Table Table::read(const std::filesystem::path& file) {
-  const ltc::TableContents contents = ltc::contents_of(file);
-  return Table(ltc::read_table(file), contents.albedo, contents.loss);
+  ltc::Table table = ltc::read_table(file);
+  const ltc::TableContents contents = ltc::contents_of(file, table);
+  return Table(std::move(table), contents.albedo, contents.loss);
 }
 
 void Table::write(const std::filesystem::path& file, bool half) const {

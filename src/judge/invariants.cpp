@@ -171,11 +171,12 @@ class Checks {
   }
 
   InvariantResult unit_scale() const {
-    const bool inverse = table_.storage == Storage::inverse;
-    return judged(inverse ? "middle entry" : "third column", limits_.unit_length, finite_,
-                  [&](std::size_t flat) {
-                    return std::abs(scale_of(table_.storage, table_.stored_at(flat)) - 1);
-                  });
+    const char* const name = table_.storage == Storage::inverse ? "middle entry" : "third column";
+    if (table_.of_any_scale)
+      return not_checked(name, limits_.unit_length, "such files have matrices of any scale");
+    return judged(name, limits_.unit_length, finite_, [&](std::size_t flat) {
+      return std::abs(scale_of(table_.storage, table_.stored_at(flat)) - 1);
+    });
   }
 
   InvariantResult alignment() const {

@@ -49,6 +49,8 @@ struct Table {
   // so; nothing where that is not known.
   std::optional<bool> refined;
   Precision precision = Precision::single;  // of the file that it was read from
+  bool without_albedo = false;              // whether its file lacks amplitudes or Fresnel terms
+  bool of_any_scale = false;                // whether its S have no certain scale: of others' files
   std::string read_as;  // what a file was taken for that does not say it, and why; else empty
 
   // One value (nine for `stored`, row-major) an entry, in the grid's C order.

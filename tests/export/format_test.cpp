@@ -61,7 +61,7 @@ TEST(Format, AnAddedOneIsWrittenReadAndNamed) {
     for (const char* name : {"t.cube", "t.floats"})
       testing::expect_same_bits(read_table(folder / name).stored, table.stored, name);
     EXPECT_EQ(files_of_table("d/t.floats"), (TableFiles{"d/t.cube", "d/t.floats"}));
-    EXPECT_FALSE(contents_of("t.cube").albedo);
+    EXPECT_FALSE(contents_of("t.cube", Table{}).albedo);
     EXPECT_FALSE(is_whole_table("t.cube"));
     EXPECT_EQ(endings_text(), ".h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h or .cube");
     test::expect_one_line(test::message_of<InputError>([] { read_table("t.png"); }),
