@@ -21,12 +21,16 @@ struct Arguments {
   WriteOptions options;
 };
 
+std::string written_endings() {
+  return endings_text([](const Format& format) { return static_cast<bool>(format.add); });
+}
+
 void convert(const Arguments& arguments, Files& files) {
   const Table table = read_input(arguments.input, arguments.layout);
   const NamedSet output = set_of(arguments.output);
   if (!output.format)
     throw InputError(fmt::format("-o {}: no suffix of a table; expected {}",
-                                 one_line(arguments.output), endings_text()));
+                                 one_line(arguments.output), written_endings()));
   const TableFiles written =
       output.format->files(output.prefix, resolved(arguments.options.layout, table.storage));
   for (const std::filesystem::path& file : written)
@@ -44,7 +48,7 @@ Action declare_convert(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   add_table_argument(app, "TABLE", arguments->input, "table to read");
   allow(app.add_option("-o,--output", arguments->output,
-                       "file to write, " + endings_text() +
+                       "file to write, " + written_endings() +
                            "; where the textures are several files, _1 and _2 or .0, .1 and .2 "
                            "stand before the ending"),
         not_empty("a file"))

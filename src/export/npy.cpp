@@ -199,6 +199,13 @@ Table read_npy(const fs::path& path, std::optional<Layout> layout) {
   Table table = read_matrices(file, file_bytes, grid, path);
   set_status(table);
   require_consistent(table, path);
+  if (is_isotropic(grid)) {
+    table.read_as =
+        "read as an isotropic table over alpha and theta, both linear, up to 89.1 degrees, as the "
+        "one "
+        "of Aakash et al. is";
+    return table;
+  }
   table.grid.layout = layout.value_or(layout_of(table));
   if (table.grid.layout == Layout::alphax_alphay)
     table.read_as =

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Tables as numbers in text: JSON, a JavaScript module, a C header, Unity's C#.
+// Tables as numbers in text: JSON, a JavaScript module, a C header, Unity's C#, and those of
+// Octave.
 #include <fmt/format.h>
 
 #include <cctype>
 
 #include "export/number_text.h"
+#include "export/octave.h"
 #include "export/texture_format.h"
 
 namespace ltc {
@@ -108,6 +110,16 @@ Format c_sharp_format() {
        .encode = [](const std::vector<Image>& images, const TableFiles&,
                     const WriteOptions&) { return std::vector{encode_c_sharp(images)}; },
        .decode = decode_lists});
+}
+
+// Read only.
+Format octave_format() {
+  return texture_format({.name = "Octave",
+                         .endings = {".mat"},
+                         .ending_of_others = true,
+                         .decode = [](const std::vector<NamedBytes>& files) {
+                           return decode_octave(files.front().bytes, files.front().file);
+                         }});
 }
 
 Format c_header_format() {

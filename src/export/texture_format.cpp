@@ -3,6 +3,7 @@
 #include "export/texture_format.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <system_error>
 
@@ -115,9 +116,9 @@ Format texture_format(const Container& container) {
               [container](const TableFiles& files, const ReadAs& as) {
                 return table_of(decode_all(container, files), as.textures, files.front());
               },
-          .add = [container](
-                     platform::FileSet& set, const Table& table, const TableFiles& files,
-                     const WriteOptions& options) { add(container, set, table, files, options); }};
+          .add = container.encode ? std::bind_front(add, container)
+                                  : std::function<void(platform::FileSet&, const Table&,
+                                                       const TableFiles&, const WriteOptions&)>()};
 }
 
 }  // namespace ltc

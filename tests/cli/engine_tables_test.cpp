@@ -10,6 +10,7 @@
 
 #include "config/config.h"
 #include "export/files.h"
+#include "export/isotropic_layout.h"
 #include "export/same_tables.h"
 #include "export/table_file.h"
 #include "support/reference.h"
@@ -83,15 +84,20 @@ TEST(EngineTables, EveryPresetWritesTheFileOfItsEngine) {
   for (const auto& [config, file] :
        {std::pair("three", "RectAreaLightTexturesLib.js"), std::pair("bevy", "ltc.ktx2"),
         std::pair("playcanvas", "area-light-luts.json"), std::pair("babylon", "areaLightsLTC.bin"),
-        std::pair("isotropic", "ltc_2.dds")}) {
+        std::pair("isotropic", "ltc_2.dds"), std::pair("unity", "LtcData.BRDF_GGX.cs"),
+        std::pair("godot", "ltc_lut1.dds")}) {
     const TemporaryDirectory folder;
     const ProgramResult made = generate(folder.path(), config, quick);
     ASSERT_EQ(made.exit_code, 0) << made.err;
     EXPECT_NE(made.out.find(std::string("t/") + file), std::string::npos) << made.out;
     const Table table = read_table(folder / "t" / file);
-    EXPECT_EQ(table.storage, Storage::inverse) << file;
-    EXPECT_EQ(table.grid, isotropic_grid(8, 8)) << file;
-    EXPECT_FALSE(std::isnan(table.amplitude.front())) << file;
+    const bool godot = config == std::string("godot"), unity = config == std::string("unity");
+    const TextureLayout layout = godot   ? TextureLayout::godot
+                                 : unity ? TextureLayout::unity
+                                         : TextureLayout::ltc;
+    EXPECT_EQ(table.storage, godot ? Storage::matrix : Storage::inverse) << file;
+    EXPECT_EQ(table.grid, grid_of(*isotropic_layout(layout), 8, 8)) << file;
+    EXPECT_EQ(std::isnan(table.amplitude.front()), unity) << file;
   }
 }
 

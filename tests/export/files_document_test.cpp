@@ -22,9 +22,9 @@ using testing::TemporaryFolder;
 // All quadrants and both roughness orders, beyond the axes too, and the seams themselves.
 std::vector<Lobe> queries() {
   std::vector<Lobe> lobes = {{0, 0, 0.3, 0.2},         {0.5, 0, 0.3, 0},
-                                {0.3, 0.3, 0, 0},         {1, 1, 1.5, M_PI / 2},
-                                {0.2, 0.4, 1, M_PI},      {0.4, 0.2, 1, 3 * M_PI / 2},
-                                {0.00005, 0.9, 0.5, 5.0}, {0.4, 0.00001, 0.5, 2.0}};
+                             {0.3, 0.3, 0, 0},         {1, 1, 1.5, M_PI / 2},
+                             {0.2, 0.4, 1, M_PI},      {0.4, 0.2, 1, 3 * M_PI / 2},
+                             {0.00005, 0.9, 0.5, 5.0}, {0.4, 0.00001, 0.5, 2.0}};
   for (int i = 0; i < 200; ++i) {
     const auto lattice = [i](double g) { return std::fmod(0.5 + i * g, 1.0); };
     lobes.push_back({1.1 * lattice(0.8566749), 1.1 * lattice(0.7338919), 1.56 * lattice(0.6287067),

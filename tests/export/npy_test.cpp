@@ -10,11 +10,14 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "core/error.h"
 #include "export/files.h"
+#include "export/npy_header.h"
 #include "export/same_tables.h"
 #include "support/reference.h"
+#include "support/temporary_directory.h"
 #include "table/synthetic.h"
 
 namespace ltc {
@@ -185,6 +188,25 @@ TEST(Npy, ThePublishedTableReadsAsThePapersGrid) {
   const Eigen::Matrix3d rough = table.matrix_at(table.grid.flat({7, 7, 0, 0}));
   EXPECT_NEAR(rough(0, 0), rough(1, 1), 0.05);
   EXPECT_NEAR(rough(2, 2), 1, 1e-5);  // third column of unit length, zeros elsewhere in it
+}
+
+// What their program says of it: fit_alpha_theta.py.
+TEST(Npy, AnArrayOverAlphaAndThetaIsTheIsotropicOneOfThePaper) {
+  const test::TemporaryDirectory folder;
+  std::vector<float> values;
+  for (int node = 0; node < 2 * 3; ++node)
+    values.insert(values.end(), {1, 0, 0, 0, 1, 0, 0, 0, static_cast<float>(node + 1)});
+  folder.write("alpha_theta.npy",
+               npy_header(std::array<std::size_t, 4>{2, 3, 3, 3})
+                   .append(reinterpret_cast<const char*>(values.data()), 4 * values.size()));
+  const Table table = read_table(folder / "alpha_theta.npy");
+  EXPECT_EQ(table.grid.shape(), (std::array<std::size_t, 4>{2, 1, 3, 1}));
+  EXPECT_EQ(table.grid.lobe({0, 0, 0, 0}).alpha_x, 0.01);
+  EXPECT_NEAR(table.grid.lobe({0, 0, 2, 0}).theta_radians, 0.99 * std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(table.matrix_at(table.grid.flat({1, 0, 0, 0}))(2, 2), 4);
+  EXPECT_NE(table.read_as.find("isotropic table"), std::string::npos);
+  folder.write("t.npy", npy_header(std::array<std::size_t, 4>{2, 3, 3, 2}));
+  EXPECT_NE(refusal(folder / "t.npy").find("or (Nalpha, Ntheta, 3, 3)"), std::string::npos);
 }
 
 TEST(ReadTable, GoesBySuffix) {

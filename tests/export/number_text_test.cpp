@@ -208,6 +208,53 @@ TEST(NumberText, OthersWaysOfWritingAreRead) {
   EXPECT_EQ(c[1].values, (std::vector<float>{1, 2, 3, 4}));
 }
 
+// Unity's: its own way of writing, and ours.
+TEST(NumberText, CSharpIsTheBitsOfHalves) {
+  const Images read = program(
+      "internal static ushort[] s_Ltc = new ushort[1 * 1 * 4]\n{\n  // Cos = [1\n"
+      "  24528, 0, 48128, 1, // alpha = 0.001\n};\nb = new ushort[4] { 15360, 32768, 31743, 64511, "
+      "};\n"
+      "double[,] s_Nine = new double[1, 3 * 3] { {1, 2, 3, 4, 5, 6, 7, 8, 9} };");
+  ASSERT_EQ(read.size(), 3u);
+  EXPECT_EQ(read[0].precision, Precision::half);
+  EXPECT_EQ(read[0].values, (std::vector<float>{500, 0, -1, 0x1p-24f}));
+  EXPECT_EQ(read[1].values, (std::vector<float>{1, -0.0f, 65504, -65504}));
+  EXPECT_EQ(read[2].precision, Precision::single);
+  EXPECT_EQ(read[2].channels, 9u);
+  Image image = numbered_image(ImageShape::flat, Precision::half, 4, 2, 2);
+  image.name = "s_Ltc";
+  const Images back = program(encode_c_sharp({image}));
+  ASSERT_EQ(back.size(), 1u);
+  EXPECT_EQ(back[0], image);
+  EXPECT_NE(encode_c_sharp({image}).find("ushort[] s_Ltc = new ushort[2 * 2 * 4]"),
+            std::string::npos);
+  image.precision = Precision::single;
+  image.values[3] = 65520;
+  expect_refusal([&] { encode_c_sharp({image}); }, "is 65520; 16 bits hold finite values up to");
+  expect_refusal([] { program("a = new ushort[4] { 0, 1, 65536, 3 }"); },
+                 "list a: 65536; allowed: the bits of a half");
+  expect_refusal([] { program("a = new ushort[4] { 0, 1, 1.5, 3 }"); }, "list a: 1.5; allowed");
+}
+
+TEST(NumberText, NestedListsSayTheirSize) {
+  const auto size_of = [](const std::string& text) {
+    const Images images = program(text);
+    return std::vector<std::size_t>{images[0].width, images[0].height, images[0].channels};
+  };
+  EXPECT_EQ(size_of("a = {{{1, 2}, {3, 4}, {5, 6}}, {{1, 2}, {3, 4}, {5, 6}}}"),
+            (std::vector<std::size_t>{3, 2, 2}));
+  EXPECT_EQ(size_of("a = {{1}, {3}, {5}, {7}}"), (std::vector<std::size_t>{2, 2, 1}));
+  EXPECT_EQ(size_of("a = {{1, 2}, {3, 4}}"), (std::vector<std::size_t>{1, 1, 4}));  // no square
+  EXPECT_EQ(size_of("a = {{1, 2, 3}, {4}}"), (std::vector<std::size_t>{1, 1, 4}));  // uneven
+  // Beside matrices, ltc_code's bare list has one number a matrix; by itself it is a square.
+  const std::string nine = "{1, 0, 0, 0, 1, 0, 0, 0, 1}";
+  const Images both = program("m = {" + nine + ", " + nine + ", " + nine + ", " + nine +
+                              "}; amplitude = {1, 2, 3, 4}");
+  EXPECT_EQ(both[1].channels, 1u);
+  EXPECT_EQ(both[1].width, 2u);
+  expect_refusal([] { program("a = {{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}}"); }, "of 10 channels");
+}
+
 TEST(NumberText, CountsThatAreNotThoseOfTheSizeAreRefused) {
   expect_refusal([] { json(R"({"a":[1,2,3]})"); },
                  "x.json: list a has 3 numbers; allowed without a size: 4 n^2");

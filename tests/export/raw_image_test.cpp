@@ -112,13 +112,24 @@ TEST(RawImage, OtherFilesAreRefusedByFault) {
       {with("width", 5.0), "has no width; allowed: a whole number"},
       {with("height", 0), "5 x 0 x 2 texels"},
       {with("layers", 1ull << 62), "x 4611686018427387904 texels"},
-      {with("channels", 9), "of 9 channels; allowed"},
+      {with("channels", 10), "of 10 channels; allowed"},
       {with("height", 4), "x.bin: 240 bytes long; x.json asks for 320"},
   };
   for (const auto& [text, fault] : cases)
     expect_refusal([&, &source = text] { read(bytes, source); }, fault);
   expect_refusal([] { encode_raw({}); }, "no images");
   expect_refusal([] { describe_raw({}); }, "no images");
+}
+
+TEST(RawImage, EnginesFilesNeedNoDescription) {
+  const Image eight = numbered_image(ImageShape::flat, Precision::half, 8, 3, 3);
+  EXPECT_EQ(decode_bare(encode_raw({eight}), "areaLightsLTC.bin"), std::vector<Image>{eight});
+  const Image four = numbered_image(ImageShape::flat, Precision::single, 4, 2, 2);
+  const std::string playcanvas = std::string("\0\0\1\0", 4) + encode_raw({four, four});
+  EXPECT_EQ(decode_bare(playcanvas, "t.bin"), (std::vector<Image>{four, four}));
+  for (const std::string& bytes : {std::string(), std::string(15, '\0'), std::string(32, '\0'),
+                                   playcanvas + '\0', playcanvas.substr(0, playcanvas.size() - 16)})
+    expect_refusal([&] { decode_bare(bytes, "t.bin"); }, "and no t.bin.json beside it");
 }
 
 TEST(RawImage, ValuesThatCannotBeStoredAreRefused) {

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "export/files.h"
+#include "export/mirror_table.h"
 #include "export/same_tables.h"
 #include "export/table_file.h"
 #include "ltc/sphere_clip.h"
@@ -22,20 +23,8 @@
 namespace ltc {
 namespace {
 
-// S of the exact mirror but for the width: M = Q diag(alpha, alpha, 1), inverted.
 Table mirror_table(std::size_t alphas, std::size_t thetas) {
-  Table table = Table::empty(isotropic_grid(alphas, thetas), Storage::inverse);
-  for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
-    const Lobe lobe = table.grid.lobe(flat);
-    const Eigen::Matrix3d matrix = mirror_rotation(lobe.omega_v()) *
-                                   Eigen::Vector3d(lobe.alpha_x, lobe.alpha_y, 1).asDiagonal();
-    const Eigen::Matrix3d stored = matrix.inverse();
-    table.set_stored(flat, stored / stored(1, 1));
-    table.amplitude[flat] = static_cast<float>(1 - 0.1 * lobe.alpha_x);
-    table.fresnel[flat] = static_cast<float>(0.1 * lobe.theta_radians);
-    table.status[flat] = Status::fitted;
-  }
-  return table;
+  return testing::mirror_table(isotropic_grid(alphas, thetas), Storage::inverse);
 }
 
 TEST(TextureLayout, EveryFormatGivesBackTheTableThatItHolds) {
@@ -89,24 +78,6 @@ TEST(TextureLayout, AreToldApartByWhereTheLobesLie) {
   const std::vector<Image> images = images_of(table, TextureLayout::ltc);
   const Table read = table_of(images, TextureLayout::automatic, "t");
   EXPECT_NE(read.read_as.find("layout ltc,"), std::string::npos) << read.read_as;
-  // The same table in the order of July 2017, not scaled.
-  std::vector<Image> older = images;
-  for (std::size_t i = 0; i < images[0].values.size(); i += 4) {
-    const float x = images[0].values[i], y = images[0].values[i + 1];
-    const float z = images[0].values[i + 2], w = images[0].values[i + 3];
-    const float scale = 0.5f;
-    const float first[] = {scale * x, scale * y, scale, scale * z};
-    const float second[] = {scale * w, images[1].values[i], images[1].values[i + 1], 0};
-    std::copy(first, first + 4, older[0].values.begin() + static_cast<std::ptrdiff_t>(i));
-    std::copy(second, second + 4, older[1].values.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  const Table of_july = table_of(older, TextureLayout::automatic, "t");
-  EXPECT_NE(of_july.read_as.find("layout ltc-2017-07,"), std::string::npos) << of_july.read_as;
-  for (std::size_t flat = 0; flat < table.grid.size(); ++flat)
-    EXPECT_NEAR((of_july.matrix_at(flat).normalized() - table.matrix_at(flat).normalized()).norm(),
-                0, 1e-5)  // floats
-        << flat;
-  EXPECT_EQ(of_july.fresnel, table.fresnel);
 }
 
 TEST(TextureLayout, RefusesWhatItCannotHold) {

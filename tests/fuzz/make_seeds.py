@@ -286,6 +286,35 @@ def ktx2_seeds(folder):
         (folder / f"{name}.ktx2").write_bytes(content)
 
 
+OCTAVE_NAMES = [f"tab{column}{row}" for column in range(3) for row in range(3)]
+
+
+def octave(matrices):
+    return "".join(f"# name: {name}\n# type: matrix\n# ndims: 2\n {rows} {columns}\n{values}\n\n"
+                   for name, rows, columns, values in matrices)
+
+
+def raw_seeds(folder):
+    def described(data, **changes):
+        image = {"name": "a", "shape": "flat", "width": 2, "height": 1, "layers": 1, "channels": 2,
+                 "precision": "half"} | changes
+        return json.dumps({"images": [image]}).encode() + b"\0" + data
+    seeds = {
+        "good": described(bytes(8)),
+        "babylon": bytes(16),
+        "playcanvas": b"\0\0\1\0" + bytes(32),
+        "empty": b"",
+        "odd_length": bytes(24),
+        "playcanvas_cut": b"\0\0\1\0" + bytes(28),
+        "wrong_count": described(bytes(6)),
+        "size_of_2_to_60": described(bytes(8), width=1 << 60, height=1 << 60),
+        "negative": described(bytes(8), width=-2),
+        "no_json": b"{" + bytes(8),
+    }
+    for name, content in seeds.items():
+        (folder / f"{name}.bin").write_bytes(content)
+
+
 def number_seeds(folder):
     lies = {
         "good.json": '{"size": {"a": [2, 1, 2, 1]}, "a": [1, -0.0, 1e-5, [65504]]}',
@@ -308,6 +337,15 @@ def number_seeds(folder):
         "not_closed.js": "a = [1, 2, 3, 4",
         "not_closed.h": "a = {1, 2, 3, 4]",
         "comment_not_closed.js": "a = [1, /* 2, 3, 4]",
+        "good.cs": "static ushort[] a = new ushort[1 * 1 * 4]\n{ 15360, 0, 48128, 31743, };",
+        "half_of_17_bits.cs": "a = new ushort[4] { 65536, 0, 0, 0 };",
+        "good.inc": "static const mat33 m[1] = {{1, 0, 0, 0, 1, 0, 0, 0, 1}};",
+        "good.mat": octave([(name, 1, 2, "1 -2e-05") for name in OCTAVE_NAMES]),
+        "one_missing.mat": octave([(name, 1, 1, "1") for name in OCTAVE_NAMES[:8]]),
+        "sizes_differ.mat": octave([(name, 1, 1 + (name == "tab22"), "1 1") for name in OCTAVE_NAMES]),
+        "size_of_2_to_60.mat": octave([("tab00", 1 << 60, 1 << 60, "1")]),
+        "cut.mat": octave([("tab00", 2, 2, "1 2 3")]),
+        "nan.mat": octave([(name, 1, 1, "NaN") for name in OCTAVE_NAMES]),
     }
     for name, content in lies.items():
         (folder / name).write_text(content)
@@ -401,7 +439,8 @@ def gltf_seeds(folder):
 def main():
     ltcfit, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     source = pathlib.Path(__file__).resolve().parents[2]
-    for reader in ("hdf5", "npy", "exr", "config", "scene", "gltf", "dds", "ktx2", "text"):
+    for reader in ("hdf5", "npy", "exr", "config", "scene", "gltf", "dds", "ktx2", "text",
+                   "raw"):
         (folder / reader).mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as made:
         made_table(ltcfit, made)
@@ -415,6 +454,7 @@ def main():
     dds_seeds(folder / "dds")
     ktx2_seeds(folder / "ktx2")
     number_seeds(folder / "text")
+    raw_seeds(folder / "raw")
 
 
 main()

@@ -16,6 +16,8 @@
 #include "export/hdf5_guard.h"
 #include "export/ktx2.h"
 #include "export/number_text.h"
+#include "export/octave.h"
+#include "export/raw_image.h"
 #include "export/table_file.h"
 #include "scene/coverage.h"
 #include "scene/readers.h"
@@ -118,12 +120,23 @@ void read_texture_bytes(const fs::path& folder, std::string_view bytes) {
   use(decode(bytes, folder / "texture"));
 }
 
-// JSON or a program: the first byte says which.
+// JSON, Octave's or a program: the first byte says which.
 void read_number_text(const fs::path& folder, std::string_view text) {
-  const auto images = text.starts_with('{') ? decode_json(text, folder / "numbers.json")
-                                            : decode_number_lists(text, folder / "numbers.js");
+  const auto images = text.starts_with('{')   ? decode_json(text, folder / "numbers.json")
+                      : text.starts_with("# ") ? decode_octave(text, folder / "numbers.mat")
+                                              : decode_number_lists(text, folder / "numbers.js");
   if (images.empty())
     throw std::logic_error("a file of nothing");
+  for (const Image& image : images)
+    use(image);
+}
+
+// The description, a zero and the bytes, or bytes alone.
+void read_raw(const fs::path& folder, std::string_view bytes) {
+  const std::size_t end = bytes.starts_with('{') ? bytes.find('\0') : bytes.npos;
+  const auto images = end == bytes.npos ? decode_bare(bytes, folder / "t.bin")
+                                        : decode_raw(bytes.substr(end + 1), bytes.substr(0, end),
+                                                     folder / "t.bin", folder / "t.bin.json");
   for (const Image& image : images)
     use(image);
 }
@@ -163,7 +176,8 @@ const std::vector<Reader>& readers() {
                                           {"gltf", read_gltf_bytes},
                                           {"dds", read_texture_bytes<decode_dds>},
                                           {"ktx2", read_texture_bytes<decode_ktx2>},
-                                          {"text", read_number_text}};
+                                          {"text", read_number_text},
+                                          {"raw", read_raw}};
   return all;
 }
 

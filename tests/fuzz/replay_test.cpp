@@ -34,9 +34,10 @@ class FuzzReplay : public ::testing::TestWithParam<fuzz::Reader> {};
 
 // The good files, by the start of their names; every other seed holds a lie.
 bool is_good(const fs::path& file) {
-  static const std::set<std::string> names = {
-      "good",     "old_format", "new_format", "one_entry", "version_2", "skipped",   "default",
-      "sections", "inline",     "all_keys",   "legacy",    "volume",    "compressed"};
+  static const std::set<std::string> names = {"good",       "old_format", "new_format", "one_entry",
+                                              "version_2",  "skipped",    "default",    "sections",
+                                              "inline",     "all_keys",   "legacy",     "volume",
+                                              "compressed", "babylon",    "playcanvas"};
   return names.contains(file.stem().string());
 }
 

@@ -22,7 +22,7 @@ constexpr const char* magnitude_name = "tabMagnitude";
 
 class Reader {
  public:
-  explicit Reader(const NamedBytes& file) : rest_(file.bytes), file_(file.file) {}
+  Reader(std::string_view text, const std::filesystem::path& file) : rest_(text), file_(file) {}
 
   std::map<std::string, Image> matrices() {
     std::map<std::string, Image> found;
@@ -85,9 +85,10 @@ class Reader {
   const std::filesystem::path& file_;
 };
 
-std::vector<Image> decode_octave(const std::vector<NamedBytes>& files) {
-  const std::filesystem::path& file = files.front().file;
-  const std::map<std::string, Image> found = Reader(files.front()).matrices();
+}  // namespace
+
+std::vector<Image> decode_octave(std::string_view text, const std::filesystem::path& file) {
+  const std::map<std::string, Image> found = Reader(text, file).matrices();
   Image all;
   all.name = "tabM";
   all.channels = entry_names.size();
@@ -112,13 +113,6 @@ std::vector<Image> decode_octave(const std::vector<NamedBytes>& files) {
   if (const auto magnitude = found.find(magnitude_name); magnitude != found.end())
     images.push_back(magnitude->second);
   return images;
-}
-
-}  // namespace
-
-Format octave_format() {
-  return texture_format(
-      {.name = "Octave", .endings = {".mat"}, .ending_of_others = true, .decode = decode_octave});
 }
 
 }  // namespace ltc
