@@ -62,22 +62,23 @@ struct Buffers {
     }
   }
   void transform() {
-    kernels::transform_samples(p, static_cast<float>(lobe.alpha_x),
-                               static_cast<float>(lobe.alpha_y), sets.cosines.x.data(),
-                               sets.cosines.y.data(), sets.cosines.z.data(), gx.size(), gx.data(),
-                               gy.data(), gz.data(), rows.data());
+    kernels::transform_samples(
+        {p, static_cast<float>(lobe.alpha_x), static_cast<float>(lobe.alpha_y)},
+        {sets.cosines.x.data(), sets.cosines.y.data(), sets.cosines.z.data(), gx.size()},
+        {gx.data(), gy.data(), gz.data(), rows.data()});
   }
   void project(std::size_t k) {
-    kernels::project_and_bin(sets.quantiles.map(5 + k), gx.data(), gy.data(), gz.data(), gx.size(),
-                             sets.bins, xi.data() + k * gx.size(), bins.data() + k * gx.size());
+    kernels::project_and_bin(sets.quantiles.map(5 + k),
+                             {gx.data(), gy.data(), gz.data(), gx.size()}, sets.bins,
+                             xi.data() + k * gx.size(), bins.data() + k * gx.size());
   }
   void project_one() { project(0); }
   void accumulate() {
     std::fill(sums.begin(), sums.end(), 0.0f);
     std::fill(populations.begin(), populations.end(), 0);
-    kernels::accumulate_rows(xi.data(), bins.data(), rows.data(), gx.size(), direction_z,
-                             kernels::directions_at_once, sets.bins, sums.data(),
-                             populations.data());
+    kernels::accumulate_rows({xi.data(), bins.data(), gx.size(), sets.bins}, rows.data(),
+                             direction_z, kernels::directions_at_once,
+                             {sums.data(), populations.data()});
   }
 
   Sets sets;
@@ -121,8 +122,10 @@ void accumulate_weights(benchmark::State& state) {
   const Sets sets(2048, 32, count);
   AlignedFloats xi(count), pairs(2 * count), sums(2 * sets.bins);
   AlignedVector<std::int32_t> bins(count);
-  kernels::project_and_bin(sets.quantiles.map(5), sets.target.gx.data(), sets.target.gy.data(),
-                           sets.target.gz.data(), count, sets.bins, xi.data(), bins.data());
+  kernels::project_and_bin(
+      sets.quantiles.map(5),
+      {sets.target.gx.data(), sets.target.gy.data(), sets.target.gz.data(), count}, sets.bins,
+      xi.data(), bins.data());
   for (auto _ : state) {
     std::fill(sums.begin(), sums.end(), 0.0f);
     kernels::accumulate_weights(xi.data(), bins.data(), sets.target.weight.data(), count,

@@ -142,10 +142,9 @@ double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, do
   return penalty;
 }
 
-Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const FreeEntries& free,
-                 const CosineSet& cosines, const TargetQuantiles& target,
-                 const DescentOptions& options, ModelWorkspace& workspace,
+Descent minimise(const DescentTask& task, const DescentOptions& options, ModelWorkspace& workspace,
                  std::vector<FitStep>* trace) {
+  const auto& [frame, start, free, cosines, target] = task;
   Descent best;
   best.frame_matrix = start / start.col(2).norm();
   ModelValue value, trial_value;

@@ -36,12 +36,19 @@ struct Descent {
 // is DescentOptions::prior_weight.
 double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, double weight);
 
-// Minimises the model over the free entries of P from `start`. A weak prior (design: sharp lobes)
+// From where, over which entries, to fit which samples to which target.
+struct DescentTask {
+  const LobeFrame& frame;
+  const Eigen::Matrix3d& start;
+  const FreeEntries& free;
+  const CosineSet& cosines;
+  const TargetQuantiles& target;
+};
+
+// Minimises the model over the free entries of P from the start. A weak prior (design: sharp lobes)
 // holds columns 0 and 1 near the first-order P0 where the samples say nothing. Steps that lose,
 // turn the determinant or are not finite are not taken. `trace` may be null.
-Descent minimise(const LobeFrame& frame, const Eigen::Matrix3d& start, const FreeEntries& free,
-                 const CosineSet& cosines, const TargetQuantiles& target,
-                 const DescentOptions& options, ModelWorkspace& workspace,
+Descent minimise(const DescentTask& task, const DescentOptions& options, ModelWorkspace& workspace,
                  std::vector<FitStep>* trace);
 
 }  // namespace ltc

@@ -191,9 +191,9 @@ class GaussNewtonSolver::Fit {
     result_ = incumbent;
     // The incumbent settles on the coarse samples before it is compared on them.
     const Descent settled =
-        minimise(frame_, admissible(frame_.from_matrix(incumbent.matrix), free_), free_,
-                 ladder_.coarse.cosines, workspace_.quantiles, options_of(ladder_.coarse, {}),
-                 workspace_.model, nullptr);
+        minimise({frame_, admissible(frame_.from_matrix(incumbent.matrix), free_), free_,
+                  ladder_.coarse.cosines, workspace_.quantiles},
+                 options_of(ladder_.coarse, {}), workspace_.model, nullptr);
     result_.steps = settled.steps;
     const bool given = !request_.starts.empty();
     const Descent best =
@@ -290,7 +290,7 @@ class GaussNewtonSolver::Fit {
       if (!(std::isfinite(losses[i]) && losses[i] <= most))
         continue;
       descents.push_back(minimise(
-          frame_, starts[i], free_, ladder_.coarse.cosines, workspace_.quantiles,
+          {frame_, starts[i], free_, ladder_.coarse.cosines, workspace_.quantiles},
           options_of(ladder_.coarse, {kind, static_cast<int>(i)}), workspace_.model, trace_));
       result_.steps += descents.back().steps;
     }
@@ -363,8 +363,9 @@ class GaussNewtonSolver::Fit {
       DescentOptions options = options_of(levels[level], {Kind::fine, phase});
       if (level < last && level_needed(descent) > level)
         options.tolerance = std::max(options.tolerance, passing_tolerance);
-      descent = minimise(frame_, descent.frame_matrix, free_, levels[level].cosines,
-                         workspace_.quantiles, options, workspace_.model, trace_);
+      descent = minimise(
+          {frame_, descent.frame_matrix, free_, levels[level].cosines, workspace_.quantiles},
+          options, workspace_.model, trace_);
       result_.steps += descent.steps;
       if (level == last ||
           (level_needed(descent) <= level && !is_overfitted(descent, levels[level + 1])))

@@ -18,20 +18,19 @@ using Floats = hn::CappedTag<float, row_width>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
 using V = hn::Vec<Floats>;
 
-void transform_samples(const float* p, float alpha_x, float alpha_y, const float* cosine_x,
-                       const float* cosine_y, const float* cosine_z, std::size_t count, float* gx,
-                       float* gy, float* gz, float* rows) {
+void transform_samples(const FrameMatrix& matrix, const Points& cosine, const SampleRows& result) {
+  const float* const p = matrix.p;
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
-  const V ax = hn::Set(d, alpha_x), ay = hn::Set(d, alpha_y), one = hn::Set(d, 1.0f);
+  const V ax = hn::Set(d, matrix.alpha_x), ay = hn::Set(d, matrix.alpha_y), one = hn::Set(d, 1.0f);
   const V p00 = hn::Set(d, p[0]), p01 = hn::Set(d, p[1]), p02 = hn::Set(d, p[2]);
   const V p10 = hn::Set(d, p[3]), p11 = hn::Set(d, p[4]), p12 = hn::Set(d, p[5]);
   const V p20 = hn::Set(d, p[6]), p21 = hn::Set(d, p[7]), p22 = hn::Set(d, p[8]);
   HWY_ALIGN float columns[row_width * row_width];
-  for (std::size_t i = 0; i < count; i += lanes) {
-    const V x = hn::Mul(ax, hn::Load(d, cosine_x + i));
-    const V y = hn::Mul(ay, hn::Load(d, cosine_y + i));
-    const V z = hn::Load(d, cosine_z + i);
+  for (std::size_t i = 0; i < cosine.count; i += lanes) {
+    const V x = hn::Mul(ax, hn::Load(d, cosine.x + i));
+    const V y = hn::Mul(ay, hn::Load(d, cosine.y + i));
+    const V z = hn::Load(d, cosine.z + i);
     const V fx = hn::MulAdd(p00, x, hn::MulAdd(p01, y, hn::Mul(p02, z)));
     const V fy = hn::MulAdd(p10, x, hn::MulAdd(p11, y, hn::Mul(p12, z)));
     const V fz = hn::MulAdd(p20, x, hn::MulAdd(p21, y, hn::Mul(p22, z)));
@@ -43,9 +42,9 @@ void transform_samples(const float* p, float alpha_x, float alpha_y, const float
     const V ahead = hn::Neg(hn::Div(hn::Mul(lateral, scale), hn::Add(length, fz)));
     const V behind = hn::Sub(hn::Mul(fz, scale), one);
     const V oz = hn::IfThenElse(hn::Gt(fz, hn::Zero(d)), ahead, behind);
-    hn::Store(ox, d, gx + i);
-    hn::Store(oy, d, gy + i);
-    hn::Store(oz, d, gz + i);
+    hn::Store(ox, d, result.gx + i);
+    hn::Store(oy, d, result.gy + i);
+    hn::Store(oz, d, result.gz + i);
     const V a0 = hn::Mul(x, scale), a1 = hn::Mul(y, scale), a2 = hn::Mul(z, scale);
     hn::Store(hn::Mul(ox, a0), d, columns + 0 * lanes);
     hn::Store(hn::Mul(ox, a1), d, columns + 1 * lanes);
@@ -63,15 +62,15 @@ void transform_samples(const float* p, float alpha_x, float alpha_y, const float
     hn::Store(a1, d, columns + 13 * lanes);
     hn::Store(a2, d, columns + 14 * lanes);
     hn::Store(one, d, columns + 15 * lanes);
-    float* row = rows + i * row_width;
+    float* row = result.rows + i * row_width;
     for (std::size_t sample = 0; sample < lanes; ++sample)
       for (std::size_t entry = 0; entry < row_width; ++entry)
         row[sample * row_width + entry] = columns[entry * lanes + sample];
   }
 }
 
-void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy, const float* gz,
-                     std::size_t count, std::size_t bin_count, float* xi, std::int32_t* bins) {
+void project_and_bin(const ProjectionMap& map, const Points& g, std::size_t bin_count, float* xi,
+                     std::int32_t* bins) {
   const Floats d;
   const Ints di;
   const V dx = hn::Set(d, map.direction_x), dy = hn::Set(d, map.direction_y);
@@ -80,10 +79,10 @@ void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy,
   const V one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f * static_cast<float>(bin_count));
   const auto last = hn::Set(di, static_cast<std::int32_t>(bin_count) - 1);
   const auto zero = hn::Zero(di);
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < g.count; i += hn::Lanes(d)) {
     const V projection =
-        hn::MulAdd(dx, hn::Load(d, gx + i),
-                   hn::MulAdd(dy, hn::Load(d, gy + i), hn::Mul(dz, hn::Load(d, gz + i))));
+        hn::MulAdd(dx, hn::Load(d, g.x + i),
+                   hn::MulAdd(dy, hn::Load(d, g.y + i), hn::Mul(dz, hn::Load(d, g.z + i))));
     const V z = hn::Mul(hn::Sub(projection, centre), inverse_scale);
     const V hypotenuse = hn::Sqrt(hn::MulAdd(z, z, one));
     V t = hn::Div(z, hypotenuse);
@@ -100,9 +99,11 @@ void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy,
 
 // accumulate_rows for a group of fixed size, so that its loops unroll.
 template <std::size_t group>
-void accumulate_group(const float* xi, const std::int32_t* bins, const float* rows,
-                      std::size_t count, const float* direction_z, std::size_t bin_count,
-                      float* sums, std::int32_t* populations) {
+void accumulate_group(const BinnedSamples& samples, const float* rows, const float* direction_z,
+                      const BinSums& result) {
+  // Values of their own: the compiler cannot know that what is written is not them.
+  const auto [xi, bins, count, bin_count] = samples;
+  const auto [sums, populations] = result;
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
   // Factor of lane l along direction g is constant[g][l] + xi slope[l].
@@ -129,17 +130,17 @@ void accumulate_group(const float* xi, const std::int32_t* bins, const float* ro
   }
 }
 
-void accumulate_rows(const float* xi, const std::int32_t* bins, const float* rows,
-                     std::size_t count, const float* direction_z, std::size_t group,
-                     std::size_t bin_count, float* sums, std::int32_t* populations) {
+void accumulate_rows(const BinnedSamples& samples, const float* rows, const float* direction_z,
+                     std::size_t group, const BinSums& result) {
   if (group == directions_at_once) {
-    accumulate_group<directions_at_once>(xi, bins, rows, count, direction_z, bin_count, sums,
-                                         populations);
+    accumulate_group<directions_at_once>(samples, rows, direction_z, result);
     return;
   }
+  const auto [xi, bins, count, bin_count] = samples;
   for (std::size_t g = 0; g < group; ++g)
-    accumulate_group<1>(xi + g * count, bins + g * count, rows, count, direction_z + g, bin_count,
-                        sums + g * bin_count * row_width, populations + g * bin_count);
+    accumulate_group<1>(
+        {xi + g * count, bins + g * count, count, bin_count}, rows, direction_z + g,
+        {result.sums + g * bin_count * row_width, result.populations + g * bin_count});
 }
 
 void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,
@@ -220,9 +221,9 @@ void store_jacobians(const ProjectionMap& map, const float* sums, std::size_t bi
 #endif
 }
 
-void reduce_direction(const ProjectionMap& map, const float* sums, const std::int32_t* populations,
-                      std::size_t bin_count, std::size_t count, const TargetCells& target,
-                      float smoothing, float* scratch, DirectionSums& result) {
+void reduce_direction(const DirectionBins& of, const TargetCells& target, float smoothing,
+                      float* scratch, DirectionSums& result) {
+  const auto& [map, sums, populations, bin_count, count] = of;
   const Floats d;
   const Ints di;
   const std::size_t lanes = hn::Lanes(d);
@@ -307,23 +308,18 @@ HWY_EXPORT(accumulate_rows);
 HWY_EXPORT(accumulate_weights);
 HWY_EXPORT(reduce_direction);
 
-void transform_samples(const float* frame_matrix, float alpha_x, float alpha_y,
-                       const float* cosine_x, const float* cosine_y, const float* cosine_z,
-                       std::size_t count, float* gx, float* gy, float* gz, float* rows) {
-  HWY_DYNAMIC_DISPATCH(transform_samples)
-  (frame_matrix, alpha_x, alpha_y, cosine_x, cosine_y, cosine_z, count, gx, gy, gz, rows);
+void transform_samples(const FrameMatrix& matrix, const Points& cosine, const SampleRows& result) {
+  HWY_DYNAMIC_DISPATCH(transform_samples)(matrix, cosine, result);
 }
 
-void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy, const float* gz,
-                     std::size_t count, std::size_t bin_count, float* xi, std::int32_t* bins) {
-  HWY_DYNAMIC_DISPATCH(project_and_bin)(map, gx, gy, gz, count, bin_count, xi, bins);
+void project_and_bin(const ProjectionMap& map, const Points& g, std::size_t bin_count, float* xi,
+                     std::int32_t* bins) {
+  HWY_DYNAMIC_DISPATCH(project_and_bin)(map, g, bin_count, xi, bins);
 }
 
-void accumulate_rows(const float* xi, const std::int32_t* bins, const float* rows,
-                     std::size_t count, const float* direction_z, std::size_t group,
-                     std::size_t bin_count, float* sums, std::int32_t* populations) {
-  HWY_DYNAMIC_DISPATCH(accumulate_rows)
-  (xi, bins, rows, count, direction_z, group, bin_count, sums, populations);
+void accumulate_rows(const BinnedSamples& samples, const float* rows, const float* direction_z,
+                     std::size_t group, const BinSums& result) {
+  HWY_DYNAMIC_DISPATCH(accumulate_rows)(samples, rows, direction_z, group, result);
 }
 
 void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,
@@ -331,11 +327,9 @@ void accumulate_weights(const float* xi, const std::int32_t* bins, const float* 
   HWY_DYNAMIC_DISPATCH(accumulate_weights)(xi, bins, weights, count, scratch, sums);
 }
 
-void reduce_direction(const ProjectionMap& map, const float* sums, const std::int32_t* populations,
-                      std::size_t bin_count, std::size_t count, const TargetCells& target,
-                      float smoothing, float* scratch, DirectionSums& result) {
-  HWY_DYNAMIC_DISPATCH(reduce_direction)
-  (map, sums, populations, bin_count, count, target, smoothing, scratch, result);
+void reduce_direction(const DirectionBins& of, const TargetCells& target, float smoothing,
+                      float* scratch, DirectionSums& result) {
+  HWY_DYNAMIC_DISPATCH(reduce_direction)(of, target, smoothing, scratch, result);
 }
 
 }  // namespace ltc::kernels

@@ -21,6 +21,7 @@
 #include <cstdint>
 
 #include "core/aligned.h"
+#include "core/points.h"
 
 namespace ltc::kernels {
 
@@ -49,27 +50,48 @@ inline void jacobian_of_sums(const ProjectionMap& map, const float* sums, float*
   }
 }
 
-// Fills offset arrays gx, gy, gz and the rows (16 floats a sample: the factors above without x and
-// xi) for `count` cosine samples (multiple of 16) and the row-major frame matrix P.
-void transform_samples(const float* frame_matrix, float alpha_x, float alpha_y,
-                       const float* cosine_x, const float* cosine_y, const float* cosine_z,
-                       std::size_t count, float* gx, float* gy, float* gz, float* rows);
+// P, row-major, of a lobe of these roughnesses.
+struct FrameMatrix {
+  const float* p;
+  float alpha_x, alpha_y;
+};
 
-// xi and bin of `count` (multiple of 16) samples; bins in [0, bin_count).
-void project_and_bin(const ProjectionMap& map, const float* gx, const float* gy, const float* gz,
-                     std::size_t count, std::size_t bin_count, float* xi, std::int32_t* bins);
+// Offsets of samples, and a row each: 16 floats, the factors above without x and xi.
+struct SampleRows {
+  float* gx;
+  float* gy;
+  float* gz;
+  float* rows;
+};
+
+// Fills the offsets and rows of cosine samples.
+void transform_samples(const FrameMatrix& matrix, const Points& cosine, const SampleRows& result);
+
+// xi and bin of samples of offsets g; bins in [0, bin_count).
+void project_and_bin(const ProjectionMap& map, const Points& g, std::size_t bin_count, float* xi,
+                     std::int32_t* bins);
 
 // Along how many directions rows are summed at once: a row is read once for all of them, and the
 // sums of one direction do not wait for those of another.
 inline constexpr std::size_t directions_at_once = 4;
 
+// What project_and_bin gives, of one direction after the other.
+struct BinnedSamples {
+  const float* xi;
+  const std::int32_t* bins;
+  std::size_t count, bin_count;  // of one direction
+};
+
+// bin_count rows and counters of one direction after the other.
+struct BinSums {
+  float* sums;
+  std::int32_t* populations;
+};
+
 // Adds each sample's row, times its factors, to the sums of its bin, along `group` <=
-// directions_at_once directions whose z are `direction_z`. Those of direction g begin at g count in
-// `xi` and `bins`; its sums are bin_count rows from g bin_count in `sums`, its bin_count counters
-// start at g bin_count in `populations`. Both are zeroed by the caller.
-void accumulate_rows(const float* xi, const std::int32_t* bins, const float* rows,
-                     std::size_t count, const float* direction_z, std::size_t group,
-                     std::size_t bin_count, float* sums, std::int32_t* populations);
+// directions_at_once directions whose z are `direction_z`. The caller zeroes the result.
+void accumulate_rows(const BinnedSamples& samples, const float* rows, const float* direction_z,
+                     std::size_t group, const BinSums& result);
 
 // Adds weight w and w xi of each sample to its bin; `sums` holds bin_count pairs (w, w xi).
 // `scratch` holds 2 count floats.
@@ -91,6 +113,15 @@ struct TargetCells {
   float first_tail, last_tail;
 };
 
+// The rows of all samples, summed into the bins of one direction.
+struct DirectionBins {
+  const ProjectionMap& map;
+  const float* sums;
+  const std::int32_t* populations;
+  std::size_t bin_count;  // a multiple of 16
+  std::size_t count;      // of all samples
+};
+
 // What one direction adds to the model (quantile_model.h): `gradient` row_width floats, the last 7
 // unused; `hessian` 9 rows of row_width floats, likewise. All are added to.
 struct DirectionSums {
@@ -100,10 +131,8 @@ struct DirectionSums {
 };
 
 // Compares the binned LTC with the target's quantiles and accumulates loss, gradient and curvature.
-// bin_count is a multiple of 16, `count` the number of samples. `scratch` holds
-// (4 + row_width) bin_count floats.
-void reduce_direction(const ProjectionMap& map, const float* sums, const std::int32_t* populations,
-                      std::size_t bin_count, std::size_t count, const TargetCells& target,
-                      float smoothing, float* scratch, DirectionSums& result);
+// `scratch` holds (4 + row_width) bin_count floats.
+void reduce_direction(const DirectionBins& of, const TargetCells& target, float smoothing,
+                      float* scratch, DirectionSums& result);
 
 }  // namespace ltc::kernels

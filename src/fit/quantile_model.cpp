@@ -145,8 +145,9 @@ void TargetQuantiles::build(const TargetSamples& samples,
                 static_cast<float>(centre),
                 static_cast<float>(1 / scale),
                 spacing};
-    kernels::project_and_bin(maps_[k], samples.gx.data(), samples.gy.data(), samples.gz.data(),
-                             samples.size, bin_count, xi.data(), bins.data());
+    kernels::project_and_bin(
+        maps_[k], {samples.gx.data(), samples.gy.data(), samples.gz.data(), samples.size},
+        bin_count, xi.data(), bins.data());
     kernels::accumulate_weights(xi.data(), bins.data(), samples.weight.data(), samples.size,
                                 pairs_.data(), sums_.data() + k * 2 * bin_count);
     cut_into_cells(k);
@@ -276,35 +277,26 @@ void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, const Co
   std::array<float, directions_at_once> direction_z;
   for (std::size_t member = 0; member < maps.size(); ++member) {
     direction_z[member] = maps[member]->direction_z;
-    kernels::project_and_bin(*maps[member], workspace.gx.data(), workspace.gy.data(),
-                             workspace.gz.data(), count, bins, workspace.xi.data() + member * count,
-                             workspace.bins.data() + member * count);
+    kernels::project_and_bin(
+        *maps[member], {workspace.gx.data(), workspace.gy.data(), workspace.gz.data(), count}, bins,
+        workspace.xi.data() + member * count, workspace.bins.data() + member * count);
   }
   std::fill_n(workspace.sums.data(), maps.size() * bins * row_width, 0.0f);
   std::fill_n(workspace.populations.data(), maps.size() * bins, 0);
-  kernels::accumulate_rows(workspace.xi.data(), workspace.bins.data(), workspace.rows.data(), count,
-                           direction_z.data(), maps.size(), bins, workspace.sums.data(),
-                           workspace.populations.data());
+  kernels::accumulate_rows({workspace.xi.data(), workspace.bins.data(), count, bins},
+                           workspace.rows.data(), direction_z.data(), maps.size(),
+                           {workspace.sums.data(), workspace.populations.data()});
   if (!cosines.multiplicity.empty())
     count_with_multiplicity(cosines, maps.size(), bins, workspace);
 }
 
-// The samples' rows summed into the bins of one direction.
-struct DirectionBins {
-  const kernels::ProjectionMap& map;
-  const float* sums;
-  const std::int32_t* populations;
-  std::size_t bins, count;  // count of all samples
-};
-
 // Adds what one direction's bins say.
-void add_direction(const DirectionBins& of, const kernels::TargetCells& cells, double smoothing,
-                   AlignedFloats& scratch, ModelValue& value) {
+void add_direction(const kernels::DirectionBins& of, const kernels::TargetCells& cells,
+                   double smoothing, AlignedFloats& scratch, ModelValue& value) {
   alignas(vector_alignment) float gradient[row_width] = {};
   alignas(vector_alignment) float hessian[9 * row_width] = {};
   kernels::DirectionSums result{gradient, hessian, 0};
-  kernels::reduce_direction(of.map, of.sums, of.populations, of.bins, of.count, cells,
-                            static_cast<float>(smoothing), scratch.data(), result);
+  kernels::reduce_direction(of, cells, static_cast<float>(smoothing), scratch.data(), result);
   // In double from direction to direction: the scale of P is a direction of zero curvature, and
   // only rounding may say otherwise.
   value.loss += result.loss;
@@ -325,10 +317,11 @@ void evaluate_model(const ModelPoint& point, ModelWorkspace& workspace, ModelVal
   float p[9];
   for (int i = 0; i < 9; ++i)
     p[i] = static_cast<float>(point.frame_matrix(i / 3, i % 3));
-  kernels::transform_samples(p, static_cast<float>(point.frame.lobe.alpha_x),
-                             static_cast<float>(point.frame.lobe.alpha_y), cosines.x.data(),
-                             cosines.y.data(), cosines.z.data(), count, workspace.gx.data(),
-                             workspace.gy.data(), workspace.gz.data(), workspace.rows.data());
+  kernels::transform_samples(
+      {p, static_cast<float>(point.frame.lobe.alpha_x),
+       static_cast<float>(point.frame.lobe.alpha_y)},
+      {cosines.x.data(), cosines.y.data(), cosines.z.data(), count},
+      {workspace.gx.data(), workspace.gy.data(), workspace.gz.data(), workspace.rows.data()});
   multiply_rows(cosines, workspace.rows);
   value.gradient.setZero();
   value.curvature.setZero();

@@ -243,9 +243,10 @@ Descender::LossGradient Descender::loss_and_gradient(const Eigen::Matrix3d& fram
   float m[9];
   for (int i = 0; i < 9; ++i)
     m[i] = static_cast<float>(frame_direction(i / 3, i % 3));
-  kernels::transform_samples(m, 1, 1, workspace_.cosine_x.data(), workspace_.cosine_y.data(),
-                             workspace_.cosine_z.data(), count_, model.gx.data(), model.gy.data(),
-                             model.gz.data(), model.rows.data());
+  kernels::transform_samples(
+      {m, 1, 1},
+      {workspace_.cosine_x.data(), workspace_.cosine_y.data(), workspace_.cosine_z.data(), count_},
+      {model.gx.data(), model.gy.data(), model.gz.data(), model.rows.data()});
   LossGradient result{0, Eigen::Matrix3d::Zero()};
   auto& keys = workspace_.keys;
   for (int k = 0; k < settings_.directions; ++k) {
@@ -268,8 +269,8 @@ Descender::LossGradient Descender::loss_and_gradient(const Eigen::Matrix3d& fram
     // The sums of dx/dM over the samples that lie too low (0) and too high (1).
     alignas(vector_alignment) float sums[2 * kernels::row_width] = {};
     std::int32_t populations[2] = {};
-    kernels::accumulate_rows(model.xi.data(), model.bins.data(), model.rows.data(), count_, &d.z(),
-                             1, 2, sums, populations);
+    kernels::accumulate_rows({model.xi.data(), model.bins.data(), count_, 2}, model.rows.data(),
+                             &d.z(), 1, {sums, populations});
     float low[9], high[9];
     kernels::jacobian_of_sums({d.x(), d.y(), d.z(), 0, 1}, sums, low);
     kernels::jacobian_of_sums({d.x(), d.y(), d.z(), 0, 1}, sums + kernels::row_width, high);

@@ -22,8 +22,8 @@ Eigen::Vector3f in_frame(const LobeFrame& frame, const Eigen::Vector3d& directio
 
 void project(const Eigen::Vector3f& direction, const AlignedFloats& x, const AlignedFloats& y,
              const AlignedFloats& z, AlignedFloats& projections) {
-  kernels::project(direction.x(), direction.y(), direction.z(), x.data(), y.data(), z.data(),
-                   projections.size(), projections.data());
+  kernels::project(direction.data(), {x.data(), y.data(), z.data(), projections.size()},
+                   projections.data());
 }
 
 }  // namespace

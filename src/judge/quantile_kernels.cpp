@@ -58,10 +58,11 @@ double sum_differences(const float* x, const float* y, std::size_t count) {
   });
 }
 
-void project(float dx, float dy, float dz, const float* x, const float* y, const float* z,
-             std::size_t count, float* projections) {
+void project(const float* direction, const Points& points, float* projections) {
   const Floats d;
-  const V vx = hn::Set(d, dx), vy = hn::Set(d, dy), vz = hn::Set(d, dz);
+  const V vx = hn::Set(d, direction[0]), vy = hn::Set(d, direction[1]),
+          vz = hn::Set(d, direction[2]);
+  const auto [x, y, z, count] = points;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const V along_x = hn::Mul(vx, hn::Load(d, x + i)), along_y = hn::Mul(vy, hn::Load(d, y + i));
     const V along_z = hn::Mul(vz, hn::Load(d, z + i));
@@ -88,9 +89,8 @@ double sum_differences(const float* x, const float* y, std::size_t count) {
   return HWY_DYNAMIC_DISPATCH(sum_differences)(x, y, count);
 }
 
-void project(float dx, float dy, float dz, const float* x, const float* y, const float* z,
-             std::size_t count, float* projections) {
-  HWY_DYNAMIC_DISPATCH(project)(dx, dy, dz, x, y, z, count, projections);
+void project(const float* direction, const Points& points, float* projections) {
+  HWY_DYNAMIC_DISPATCH(project)(direction, points, projections);
 }
 
 }  // namespace ltc::kernels

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/points.h"
+
 namespace ltc::kernels {
 
 // All arrays are aligned (core/aligned.h) and `count` is a multiple of 16.
@@ -19,8 +21,7 @@ double sum_outside(const float* x, const float* mean, const float* bound, std::s
 // sum |x_i - y_i|.
 double sum_differences(const float* x, const float* y, std::size_t count);
 
-// dx x_i + dy y_i + dz z_i, every operation rounded on its own.
-void project(float dx, float dy, float dz, const float* x, const float* y, const float* z,
-             std::size_t count, float* projections);
+// The points along a direction (x, y, z), every operation rounded on its own.
+void project(const float* direction, const Points& points, float* projections);
 
 }  // namespace ltc::kernels

@@ -53,8 +53,8 @@ struct Planted {
     DescentOptions options;
     options.steps = steps;
     options.tolerance = 0;
-    return minimise(frame, start, free_entries(frame.lobe), cosines, quantiles, options, workspace,
-                    trace);
+    return minimise({frame, start, free_entries(frame.lobe), cosines, quantiles}, options,
+                    workspace, trace);
   }
 
   LobeFrame frame;
@@ -123,7 +123,7 @@ TEST(GaussNewton, TakesNoStepThatLoses) {
         DescentOptions options;
         options.steps = steps;
         std::vector<FitStep> trace;
-        const Descent descent = minimise(frame, start, free_entries(lobe), cosines, quantiles,
+        const Descent descent = minimise({frame, start, free_entries(lobe), cosines, quantiles},
                                          options, workspace, &trace);
         const Eigen::Matrix3d& p = descent.frame_matrix;
         EXPECT_EQ(static_cast<std::size_t>(descent.steps), trace.size());

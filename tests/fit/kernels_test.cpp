@@ -57,10 +57,10 @@ struct Transformed {
 
 Transformed transform(const float* p, const Lobe& lobe, const CosineSet& cosines) {
   Transformed result(cosines.size());
-  kernels::transform_samples(p, static_cast<float>(lobe.alpha_x), static_cast<float>(lobe.alpha_y),
-                             cosines.x.data(), cosines.y.data(), cosines.z.data(), cosines.size(),
-                             result.gx.data(), result.gy.data(), result.gz.data(),
-                             result.rows.data());
+  kernels::transform_samples(
+      {p, static_cast<float>(lobe.alpha_x), static_cast<float>(lobe.alpha_y)},
+      {cosines.x.data(), cosines.y.data(), cosines.z.data(), cosines.size()},
+      {result.gx.data(), result.gy.data(), result.gz.data(), result.rows.data()});
   return result;
 }
 
@@ -151,7 +151,7 @@ void check_project_and_bin(kernels::BinSpacing spacing) {
             spacing};
         AlignedFloats xi(count);
         AlignedVector<std::int32_t> bin(count);
-        kernels::project_and_bin(map, gx.data(), gy.data(), gz.data(), count, bins, xi.data(),
+        kernels::project_and_bin(map, {gx.data(), gy.data(), gz.data(), count}, bins, xi.data(),
                                  bin.data());
         for (std::size_t i = 0; i < count; ++i) {
           const double expected =
@@ -192,8 +192,8 @@ TEST(Kernels, GradedBinsTellTailsApart) {
   std::copy(z.begin(), z.end(), gx.begin());
   AlignedVector<std::int32_t> bin(count);
   const auto bins_of = [&](kernels::BinSpacing spacing) {
-    kernels::project_and_bin({1, 0, 0, 0, 1, spacing}, gx.data(), gy.data(), gz.data(), count, bins,
-                             xi.data(), bin.data());
+    kernels::project_and_bin({1, 0, 0, 0, 1, spacing}, {gx.data(), gy.data(), gz.data(), count},
+                             bins, xi.data(), bin.data());
     return std::vector<std::int32_t>(bin.begin(), bin.begin() + z.size());
   };
   EveryTarget().run([&] {
@@ -210,7 +210,7 @@ TEST(Kernels, ProjectionsFarOutsideGoIntoTheOuterBins) {
   AlignedVector<std::int32_t> bin(count);
   EveryTarget().run([&] {
     // The narrowest scale that TargetQuantiles allows: z^2 = 4e30 must not overflow.
-    kernels::project_and_bin({1, 0, 0, 0, 1e15f}, gx.data(), gy.data(), gz.data(), count, bins,
+    kernels::project_and_bin({1, 0, 0, 0, 1e15f}, {gx.data(), gy.data(), gz.data(), count}, bins,
                              xi.data(), bin.data());
     for (std::size_t i = 0; i < count; ++i)
       EXPECT_EQ(bin[i], i < 8 ? 31 : 0);
@@ -244,8 +244,8 @@ void check_accumulate_rows(std::size_t group) {
   EveryTarget().run([&] {
     AlignedFloats sums(group * bins * row_width, 0.0f);
     AlignedVector<std::int32_t> populations(group * bins, 0);
-    kernels::accumulate_rows(xi.data(), bin.data(), rows.data(), count, direction_z.data(), group,
-                             bins, sums.data(), populations.data());
+    kernels::accumulate_rows({xi.data(), bin.data(), count, bins}, rows.data(), direction_z.data(),
+                             group, {sums.data(), populations.data()});
     for (std::size_t j = 0; j < sums.size(); ++j)
       if (magnitude[j] > 0)
         worst = std::max(worst, std::abs(sums[j] - expected[j]) / magnitude[j] / kEpsilon);
@@ -398,7 +398,7 @@ TEST(Kernels, ReduceDirectionAgreesWithDouble) {
     alignas(vector_alignment) float hessian_f[9 * row_width] = {};
     AlignedFloats scratch((4 + row_width) * bins);
     kernels::DirectionSums result{gradient_f, hessian_f, 0};
-    kernels::reduce_direction(map, sums.data(), populations.data(), bins, count, target.cells(),
+    kernels::reduce_direction({map, sums.data(), populations.data(), bins, count}, target.cells(),
                               smoothing, scratch.data(), result);
     worst = std::max(worst, std::abs(result.loss - loss) / loss_magnitude / kEpsilon);
     for (int row = 0; row < 9; ++row) {
