@@ -3,6 +3,7 @@
 // ltcfit convert: a table in another format or layout.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/command.h"
@@ -31,8 +32,14 @@ void convert(const Arguments& arguments, Files& files) {
   if (!output.format)
     throw InputError(fmt::format("-o {}: no suffix of a table; expected {}",
                                  one_line(arguments.output), written_endings()));
-  const TableFiles written =
-      output.format->files(output.prefix, resolved(arguments.options.layout, table.storage));
+  const TextureLayout layout = resolved(arguments.options.layout, table.grid, table.storage);
+  const TableFiles written = output.format->files(output.prefix, layout);
+  const std::string plain = output.prefix.string() + output.format->sets.back().front();
+  if (arguments.output != plain &&
+      std::ranges::find(written, std::filesystem::path(arguments.output)) == written.end())
+    throw InputError(fmt::format("-o {}: no file of layout {}; expected {} or {}",
+                                 one_line(arguments.output), name_of(layout), one_line(plain),
+                                 one_line(written.front().string())));
   for (const std::filesystem::path& file : written)
     files.write("-o", file);
   write_table(table, arguments.output, arguments.options);

@@ -37,20 +37,27 @@ void check_together(const Draft& draft, const config::Sources& sources) {
   check_axis("table.phi", "_degrees", draft.phi_degrees, sources);
   if (draft.config.storage == Storage::inverse && !is_isotropic(config::config_of(draft).grid))
     throw InputError(fmt::format(
-        "{}: table.storage = \"inverse\" with other nodes than lambda = 1 and phi = 0; expected one "
+        "{}: table.storage = \"inverse\" with other nodes than lambda = 1 and phi = 0; expected "
+        "one "
         "node of each: inverses of other lobes do not interpolate",
         config::latest_source(sources, {"table.storage", "table.lambda.first", "table.lambda.nodes",
                                         "table.phi.first_degrees", "table.phi.nodes"})));
   const OutputSettings& output = draft.config.output;
-  constexpr std::array formats = {
-      &OutputSettings::hdf5, &OutputSettings::exr,        &OutputSettings::npy,
-      &OutputSettings::dds,  &OutputSettings::ktx2,       &OutputSettings::json,
-      &OutputSettings::raw,  &OutputSettings::javascript, &OutputSettings::c_header,
-      &OutputSettings::c_sharp};
+  constexpr std::array formats = {&OutputSettings::hdf5,     &OutputSettings::exr,
+                                  &OutputSettings::npy,      &OutputSettings::dds,
+                                  &OutputSettings::ktx2,     &OutputSettings::json,
+                                  &OutputSettings::raw,      &OutputSettings::javascript,
+                                  &OutputSettings::c_header, &OutputSettings::c_sharp};
   if (std::ranges::none_of(formats, [&](bool OutputSettings::*format) { return output.*format; }))
+    throw InputError(fmt::format(
+        "{}: no format of [output] is true; expected at least one true, such as output.hdf5",
+        config::latest_source(sources, {"output.hdf5", "output.exr", "output.npy"})));
+  if (output.layout == TextureLayout::unity && draft.config.refine.steps > 0)
     throw InputError(
-        fmt::format("{}: no format of [output] is true; expected at least one true, such as output.hdf5",
-                    config::latest_source(sources, {"output.hdf5", "output.exr", "output.npy"})));
+        fmt::format("{}: output.layout = \"unity\" with refine.steps = {}; expected 0: refinement "
+                    "moves nodes to where that layout divides by what is not positive",
+                    config::latest_source(sources, {"output.layout", "refine.steps"}),
+                    draft.config.refine.steps));
   const FitSettings& fit = draft.config.fit;
   if (fit.sgd.lattice_samples && fit.target == TargetKind::rejection)
     throw InputError(

@@ -92,4 +92,13 @@ void require_consistent(const Table& table, const std::filesystem::path& file) {
   }
 }
 
+void require_albedo(const Table& table, const std::filesystem::path& file) {
+  for (std::size_t i = 0; i < table.grid.size(); ++i)
+    if (has_values(table.status[i]) &&
+        !(std::isfinite(table.amplitude[i]) && std::isfinite(table.fresnel[i])))
+      refuse_file(file, fmt::format("the table has no amplitude or no Fresnel term at entry ({}); "
+                                    "such files hold both",
+                                    fmt::join(table.grid.indices(i), ", ")));
+}
+
 }  // namespace ltc

@@ -25,4 +25,8 @@ void require_shapes(const Table& table, const std::filesystem::path& file);
 // The same, and that the matrix of every entry that is neither skipped nor failed is finite.
 void require_consistent(const Table& table, const std::filesystem::path& file);
 
+// Also with an amplitude and a Fresnel term for every matrix, as files need that hold them: the
+// first entry without is refused.
+void require_albedo(const Table& table, const std::filesystem::path& file);
+
 }  // namespace ltc

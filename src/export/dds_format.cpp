@@ -16,6 +16,7 @@ Format dds_format() {
        .three_files = true,
        .named = {{TextureLayout::godot, {"_lut1.dds", "_lut2.dds"}},
                  {TextureLayout::ltc_2017_06, {"_mat.dds", "_amp.dds"}}},
+       .four_channels = true,
        .encode = [](const std::vector<Image>& images, const TableFiles&,
                     const WriteOptions&) { return std::vector{encode_dds(images.front())}; },
        .decode =

@@ -46,6 +46,7 @@ void require_storable(const Table& table, std::size_t entry, float value, float 
 }
 
 std::array<Pixels, files> gather_pixels(const Table& table, const TableFiles& paths, bool half) {
+  require_albedo(table, paths.front());
   const std::vector<std::size_t> source = nearest_fitted(table);
   const float largest = largest_value(half ? Precision::half : Precision::single);
   std::array<Pixels, files> pixels;

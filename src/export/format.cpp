@@ -9,15 +9,17 @@ namespace ltc {
 
 // Each in the file of its name.
 Format hdf5_format(), exr_format(), npy_format(), dds_format(), ktx2_format(), raw_format(),
-    json_format(), javascript_format(), c_header_format(), c_sharp_format(), octave_format();
+    json_format(), javascript_format(), c_header_format(), c_sharp_format(), octave_format(),
+    c_source_format(const char*ending);
 
 namespace {
 
 std::list<Format>& list() {
-  static std::list<Format> all = {hdf5_format(),    exr_format(),        npy_format(),
-                                  dds_format(),     ktx2_format(),       raw_format(),
-                                  json_format(),    javascript_format(), c_header_format(),
-                                  c_sharp_format(), octave_format()};
+  static std::list<Format> all = {
+      hdf5_format(),          exr_format(),     npy_format(),    dds_format(),
+      ktx2_format(),          raw_format(),     json_format(),   javascript_format(),
+      c_header_format(),      c_sharp_format(), octave_format(), c_source_format(".inc"),
+      c_source_format(".inl")};
   return all;
 }
 
@@ -45,7 +47,7 @@ TableFiles Format::all_files(const std::filesystem::path& prefix) const {
 std::string Format::why_not(const Grid& grid, Storage storage, TextureLayout layout) const {
   if (!without_axes && grid.layout != Layout::alpha_lambda)
     return "is over alpha_x and alpha_y; expected alpha and lambda";
-  return limits ? limits(grid, storage, resolved(layout, storage)) : "";
+  return limits ? limits(grid, storage, resolved(layout, grid, storage)) : "";
 }
 
 const std::list<Format>& formats() {

@@ -65,8 +65,8 @@ struct Format {
   // that is none of the format or damaged, or disagrees with the others of the set.
   std::function<Table(const TableFiles& files, const ReadAs& as)> read = {};
   // Adds the files to those that take their places with set.commit(); the same table gives the same
-  // bytes. The table is consistent (export/consistency.h) and one that the format can hold. Null: it
-  // is only read.
+  // bytes. The table is consistent (export/consistency.h) and one that the format can hold. Null:
+  // it is only read.
   std::function<void(platform::FileSet& set, const Table& table, const TableFiles& files,
                      const WriteOptions& options)>
       add = {};

@@ -182,7 +182,7 @@ Grid grid_of(const IsotropicLayout& layout, std::size_t alphas, std::size_t thet
 
 std::string why_not(const IsotropicLayout& layout, const Grid& grid, Storage storage) {
   if (layout.read_only)
-    return "is read only";
+    return fmt::format("takes layout {} for reading only", name_of(layout.layout));
   const Grid expected = grid_of(layout, std::max<std::size_t>(grid.alpha.size(), 2),
                                 std::max<std::size_t>(grid.theta.size(), 2));
   if (storage == layout.storage && grid == expected)

@@ -43,6 +43,7 @@ Format ktx2_format() {
        .asked = &OutputSettings::ktx2,
        .half = &OutputSettings::half,
        .three_files = true,
+       .four_channels = true,
        .encode =
            [](const std::vector<Image>& images, const TableFiles&, const WriteOptions& options) {
              return std::vector{encode_ktx2(layers_of(images), options.zstd)};

@@ -49,6 +49,8 @@ class QueryReader {
 
   std::vector<Lobe> read(std::string_view text) {
     std::vector<Lobe> lobes;
+    if (constexpr std::string_view mark = "\xef\xbb\xbf"; text.starts_with(mark))
+      text.remove_prefix(mark.size());  // as spreadsheets write it
     for (std::size_t number = 1; !text.empty(); ++number) {
       const std::size_t end = text.find('\n');
       const std::string_view line = text.substr(0, end);

@@ -160,9 +160,21 @@ class Walker {
     skip_blanks();
     const std::string type = word();
     skip_blanks();
-    if (peek() == '[')
+    if (peek() == '[') {
+      const std::size_t begin = at_ + 1;
       skip_to(']');
+      take_size(std::string(text_.substr(begin, at_ - begin)));
+    }
     return type == "ushort";
+  }
+
+  // "64 * 64 * 4": width, height and channels.
+  void take_size(const std::string& product) {
+    unsigned long width = 0, height = 0, channels = 0;
+    char end = 0;
+    if (std::sscanf(product.c_str(), "%lu * %lu * %lu%c", &width, &height, &channels, &end) == 4 &&
+        end == ']')
+      size_ = Size{width, height, 1, channels};
   }
 
   std::vector<float> halves_of(const std::vector<float>& bits, std::string_view name) const {

@@ -112,7 +112,12 @@ Format c_sharp_format() {
        .decode = decode_lists});
 }
 
-// Read only.
+// Others', read only.
+Format c_source_format(const char* ending) {
+  return texture_format(
+      {.name = "C", .endings = {ending}, .ending_of_others = true, .decode = decode_lists});
+}
+
 Format octave_format() {
   return texture_format({.name = "Octave",
                          .endings = {".mat"},
@@ -127,7 +132,6 @@ Format c_header_format() {
       {.name = "C header",
        .endings = {".h"},
        .asked = &OutputSettings::c_header,
-       .named = {{TextureLayout::columns, {".inc"}}, {TextureLayout::rows, {".inl"}}},
        .ending_of_others = true,
        .encode =
            [](const std::vector<Image>& images, const TableFiles& files, const WriteOptions&) {

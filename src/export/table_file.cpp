@@ -43,7 +43,7 @@ void write_table(const Table& table, const std::filesystem::path& path,
 
 void add_table(platform::FileSet& set, const Table& table, const Format& format,
                const std::filesystem::path& prefix, const WriteOptions& options) {
-  const TextureLayout layout = resolved(options.layout, table.storage);
+  const TextureLayout layout = resolved(options.layout, table.grid, table.storage);
   const TableFiles files = format.files(prefix, layout);
   require_consistent(table, files.front());
   if (const std::string why = format.why_not(table.grid, table.storage, layout); !why.empty())

@@ -11,6 +11,8 @@
 
 #include "core/read_file.h"
 #include "core/write_file.h"
+#include "export/consistency.h"
+#include "export/isotropic_layout.h"
 
 namespace ltc {
 namespace {
@@ -79,11 +81,16 @@ std::string limits(const Container& container, const Grid& grid, Storage storage
     return "is read only";
   if (container.only && layout != *container.only)
     return fmt::format("holds layout {} only", name_of(*container.only));
+  if (container.four_channels && layout == TextureLayout::eight)
+    return "has up to four channels a texel, of which layout eight has eight";
   return why_not(layout, grid, storage);
 }
 
 void add(const Container& container, platform::FileSet& set, const Table& table,
          const TableFiles& files, const WriteOptions& options) {
+  const IsotropicLayout* const isotropic = isotropic_layout(options.layout);
+  if (!isotropic || isotropic->amplitude != IsotropicLayout::none)
+    require_albedo(table, files.front());
   std::vector<Image> images = images_of(table, options.layout);
   for (Image& image : images)
     image.precision = options.half ? Precision::half : Precision::single;

@@ -34,6 +34,7 @@ struct Container {
   bool two_files = false, three_files = false;
   std::vector<NamedLayout> named = {};
   std::optional<TextureLayout> only = std::nullopt;  // the one layout that it holds
+  bool four_channels = false;                        // whether texels have no more
   bool ending_of_others = false;                     // as of Format
   // The bytes of each file; of images that have files of their own, called with one at a time. Null
   // where files are only read.

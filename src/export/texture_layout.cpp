@@ -38,7 +38,7 @@ double mean_distance(const Table& table) {
     sum += std::isfinite(distance) ? distance : std::numbers::pi;
     ++count;
   }
-  return count ? sum / count : std::numbers::pi;
+  return count ? sum / count : 0;  // nothing to judge by
 }
 
 // Right readings of published tables are at 0.05 to 0.12, wrong ones at 0.5 and more.
@@ -117,20 +117,34 @@ std::vector<Image> images_for(const std::vector<Image>& images, TextureLayout la
   return chosen.empty() ? images : chosen;
 }
 
+// Of the same size, and finite.
+void require_alike(const Image& image, const Image& first, const std::filesystem::path& file) {
+  if (image.width != first.width || image.height != first.height || image.layers != first.layers)
+    throw InputError(fmt::format(
+        "{}: images of {} x {} x {} and {} x {} x {} texels; expected one size", file.string(),
+        first.width, first.height, first.layers, image.width, image.height, image.layers));
+  const auto bad = std::ranges::find_if_not(image.values, [](float v) { return std::isfinite(v); });
+  if (bad != image.values.end()) {
+    const auto at = static_cast<std::size_t>(bad - image.values.begin()) / image.channels;
+    throw InputError(fmt::format("{}: a value of texel ({}, {}) is {}; expected finite numbers",
+                                 file.string(), at % image.width, at / image.width, *bad));
+  }
+}
+
 // Why images are not those of a layout, after "expected"; empty where they may be.
 std::string fault(const std::vector<Image>& images, TextureLayout layout) {
   const Image& first = images.front();
-  for (const Image& image : images)
-    if (image.width != first.width || image.height != first.height || image.layers != first.layers)
-      return "images of one size";
   if (const IsotropicLayout* const isotropic = isotropic_layout(layout))
     return fault_of(images, *isotropic);
   const auto are = [&](std::size_t count, ImageShape shape, std::size_t layers) {
     return images.size() == count && first.channels == channels && first.shape == shape &&
            first.layers % layers == 0;
   };
+  // Text does not tell slices from layers.
   if (layout == TextureLayout::volumes)
-    return are(volumes, ImageShape::volume, 1) ? "" : "three 3-D images of four channels";
+    return are(volumes, ImageShape::volume, 1) || are(volumes, ImageShape::array, 1)
+               ? ""
+               : "three 3-D images of four channels";
   if (layout == TextureLayout::stacked)
     return are(1, ImageShape::volume, volumes)
                ? ""
@@ -158,12 +172,6 @@ Grid isotropic_grid(std::size_t alphas, std::size_t thetas) {
   return grid_of(*isotropic_layout(TextureLayout::ltc), alphas, thetas);
 }
 
-TextureLayout resolved(TextureLayout layout, Storage storage) {
-  if (layout != TextureLayout::automatic)
-    return layout;
-  return storage == Storage::inverse ? TextureLayout::ltc : TextureLayout::volumes;
-}
-
 std::size_t image_count(TextureLayout layout) {
   if (const IsotropicLayout* const isotropic = isotropic_layout(layout))
     return isotropic->second_channels ? 2 : 1;
@@ -179,6 +187,16 @@ std::string why_not(TextureLayout layout, const Grid& grid, Storage storage) {
   return "holds the paper's grid only, storage matrix, with as many nodes of alpha as of lambda";
 }
 
+TextureLayout resolved(TextureLayout layout, const Grid& grid, Storage storage) {
+  if (layout != TextureLayout::automatic)
+    return layout;
+  for (const TextureLayout candidate :
+       {TextureLayout::ltc, TextureLayout::unity, TextureLayout::godot})
+    if (why_not(candidate, grid, storage).empty())
+      return candidate;
+  return storage == Storage::inverse ? TextureLayout::ltc : TextureLayout::volumes;
+}
+
 std::vector<Image> images_of(const Table& table, TextureLayout layout) {
   const IsotropicLayout* const isotropic = isotropic_layout(layout);
   return isotropic ? isotropic_images(table, *isotropic) : volume_images(table, layout);
@@ -188,6 +206,8 @@ Table table_of(const std::vector<Image>& images, TextureLayout layout,
                const std::filesystem::path& file) {
   if (images.empty())
     throw InputError(fmt::format("{}: no images; expected those of a table", file.string()));
+  for (const Image& image : images)
+    require_alike(image, images.front(), file);
   std::string expected, judged;
   std::optional<Table> best;
   double least = 0;
@@ -213,14 +233,15 @@ Table table_of(const std::vector<Image>& images, TextureLayout layout,
     throw InputError(fmt::format("{}: images of no table; expected {}", file.string(), expected));
   // A table of other axes or of another frame than any that is known.
   if (layout == TextureLayout::automatic && least > farthest_mean && is_isotropic(best->grid))
-    throw InputError(fmt::format(
-        "{}: images of no layout that is known, by where the lobes lie, in the mean from what they "
-        "should about be: {}; expected up to {} of one",
-        file.string(), judged, farthest_mean));
+    throw InputError(
+        fmt::format("{}: images of no layout that is known, by how far its lobes are, in the mean, "
+                    "from the mirror's "
+                    "direction and from their due width: {}; expected up to {} of one",
+                    file.string(), judged, farthest_mean));
   best->read_as = fmt::format(
-      "read with layout {}, by the shape of its images and by where the lobes lie, in the mean "
+      "read with layout {}, by the shape of its images and by how far its lobes are, in the mean, "
       "from "
-      "what they should about be, in radians and logarithms of their width: {}",
+      "the mirror's direction and from their due width: {}",
       best->read_as, judged);
   return *std::move(best);
 }

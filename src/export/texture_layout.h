@@ -18,8 +18,8 @@ namespace ltc {
 // The grid of `ltc`: perceptual roughness sqrt(alpha) and sqrt(1 - cos(theta)) even on [0, 1].
 Grid isotropic_grid(std::size_t alphas, std::size_t thetas);
 
-// Which layout `automatic` is for such a table; any other is itself.
-TextureLayout resolved(TextureLayout layout, Storage storage);
+// Which layout `automatic` is for such a table, the first that can hold it; any other is itself.
+TextureLayout resolved(TextureLayout layout, const Grid& grid, Storage storage);
 
 // How many images it has.
 std::size_t image_count(TextureLayout layout);

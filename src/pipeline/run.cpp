@@ -140,9 +140,20 @@ void write_files(const RunRequest& request, const RunContext& context,
   report.generate.stage_seconds.emplace_back("write", seconds_since(began));
 }
 
+// Of those that are not asked for by default, the others being left out with a word.
+void require_formats(const Config& config) {
+  for (const Format& format : formats())
+    if (format.is_asked(config.output) && !format.is_asked(OutputSettings{}))
+      if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);
+          !why.empty())
+        throw InputError(fmt::format("{}, which [output] asks for, cannot hold this table: it {}",
+                                     format.name, why));
+}
+
 // Fits the table and writes its files, or leaves a checkpoint to go on from.
 void make_files(const RunRequest& request, const Work& work, const RunContext& context,
                 RunReport& report) {
+  require_formats(request.config);
   platform::require_writable_folder(request.folder);
   const platform::FolderLock lock(request.folder);
   const FilesOfRun files = files_of_run(request.config, request.folder);
@@ -186,7 +197,7 @@ FilesOfRun files_of_run(const Config& config, const fs::path& folder) {
   for (const Format& format : formats()) {
     TableFiles written;
     if (format.is_written(config))
-      written = format.files(prefix, resolved(config.output.layout, config.storage));
+      written = format.files(prefix, resolved(config.output.layout, config.grid, config.storage));
     std::ranges::copy(written, std::back_inserter(files.written));
     if (format.ending_of_others)
       continue;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "config/config.h"
 #include "export/files.h"
@@ -135,16 +136,38 @@ TEST(EngineTables, ConvertKeepsTheValuesAndRefusesWhatCannotBeHeld) {
   refuse({"t.h5", "-o", "t.dds", "--as", "ltc"}, {"isotropic tables of storage inverse only"});
   refuse({"t.h5", "-o", "t.dds", "--as", "cube"}, {"--as", "cube"});
   expect_done({"convert", "t.h5", "-o", "m.npy"}, folder.path());
-  refuse({"m.npy", "-o", "m.dds"}, {"is nan"});  // no amplitude
+  refuse({"m.npy", "-o", "m.dds"}, {"m.0.dds: the table has no amplitude"});
+  // No file but what was asked for.
+  std::ofstream(folder / "keep.h") << "precious";
+  refuse({"t.h5", "-o", "keep.inc"}, {"keep.inc: C cannot hold this table: it is read only"});
+  refuse({"t.h5", "-o", "keep_mat.dds"}, {"-o keep_mat.dds: no file of layout volumes"});
+  refuse({"t.h5", "-o", "t.dds", "--as", "rows"}, {"takes layout rows for reading only"});
+  EXPECT_EQ(testing::bytes_of(folder / "keep.h"), "precious");
   EXPECT_FALSE(fs::exists(folder / "m.0.dds"));
+}
+
+// Before the work, and without a file.
+TEST(EngineTables, AFormatThatCannotHoldWhatItIsAskedForIsRefused) {
+  const TemporaryDirectory folder;
+  for (const auto& [config, setting, part] :
+       {std::tuple("isotropic", "output.layout=eight", "DDS, which [output] asks for"),
+        std::tuple("isotropic", "output.layout=columns", "for reading only"),
+        std::tuple("bevy", "table.storage=matrix", "KTX2, which [output] asks for"),
+        std::tuple("unity", "refine.steps=1", "output.layout = \"unity\" with refine.steps = 1")}) {
+    const ProgramResult result = generate(folder.path(), config, {setting});
+    EXPECT_EQ(result.exit_code, 2) << setting;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder / "t"));
+  }
 }
 
 TEST(EngineTables, LookUpIsTheShaders) {
   const TemporaryDirectory folder;
   const Table table = testing::synthetic_table(Grid::paper(4), Storage::matrix);
   write_table(table, folder / "t.h5");
-  std::ofstream(folder / "q.csv") << "phi,theta,alpha_y,alpha_x,note\n0.3,0.7,0.2,0.5,a\n"
-                                     "4,1.5,0.9,0.1,b\n";
+  std::ofstream(folder / "q.csv")
+      << "\xef\xbb\xbfphi,theta,alpha_y,alpha_x,note\n0.3,0.7,0.2,0.5,a\n"
+         "4,1.5,0.9,0.1,b\n";
   expect_done({"lookup", "t.h5", "-q", "q.csv", "-o", "o.npy"}, folder.path());
   const ProgramResult text = expect_done({"lookup", "t.h5", "-q", "q.csv"}, folder.path());
   EXPECT_EQ(text.out.find("alpha_x,alpha_y,theta,phi,m00,"), 0u) << text.out;

@@ -63,7 +63,9 @@ TEST(Format, AnAddedOneIsWrittenReadAndNamed) {
     EXPECT_EQ(files_of_table("d/t.floats"), (TableFiles{"d/t.cube", "d/t.floats"}));
     EXPECT_FALSE(contents_of("t.cube", Table{}).albedo);
     EXPECT_FALSE(is_whole_table("t.cube"));
-    EXPECT_EQ(endings_text(), ".h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h, .cs, .mat or .cube");
+    EXPECT_EQ(
+        endings_text(),
+        ".h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h, .cs, .mat, .inc, .inl or .cube");
     test::expect_one_line(test::message_of<InputError>([] { read_table("t.png"); }),
                           {"t.png", ".2.exr", ".cube, .floats"});
     test::expect_one_line(test::message_of<InputError>([&] {
@@ -92,7 +94,8 @@ TEST(Format, ATableOverBothRoughnessesIsNotWrittenAsOneOverAlphaAndLambda) {
 }
 
 TEST(Format, ThoseShippedSayWhatTheyHold) {
-  EXPECT_EQ(endings_text(), ".h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h, .cs or .mat");
+  EXPECT_EQ(endings_text(),
+            ".h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h, .cs, .mat, .inc or .inl");
   EXPECT_EQ(endings_text(keeps_fits), ".h5");
   EXPECT_EQ(find_format("a.h5.txt"), nullptr);
   EXPECT_TRUE(find_format("a.1.exr")->half);

@@ -226,6 +226,9 @@ TEST(NumberText, CSharpIsTheBitsOfHalves) {
   const Images back = program(encode_c_sharp({image}));
   ASSERT_EQ(back.size(), 1u);
   EXPECT_EQ(back[0], image);
+  const Images uneven = program("a = new ushort[3 * 1 * 2] { 1, 2, 3, 4, 5, 6 };");
+  EXPECT_EQ(uneven[0].width, 3u);
+  EXPECT_EQ(uneven[0].channels, 2u);
   EXPECT_NE(encode_c_sharp({image}).find("ushort[] s_Ltc = new ushort[2 * 2 * 4]"),
             std::string::npos);
   image.precision = Precision::single;

@@ -37,10 +37,10 @@ TEST(TextureLayout, EveryFormatGivesBackTheTableThatItHolds) {
     WriteOptions options;
     options.layout = layout;
     write_table(table, file, options);
-    const TableFiles files =
-        set_of(file).format->files(set_of(file).prefix, resolved(layout, table.storage));
+    const TableFiles files = set_of(file).format->files(
+        set_of(file).prefix, resolved(layout, table.grid, table.storage));
     // Text knows no 3-D: the layers of an array are what was written.
-    const Table back = read_table(files.front(), {{}, resolved(layout, table.storage)});
+    const Table back = read_table(files.front(), {{}, resolved(layout, table.grid, table.storage)});
     EXPECT_EQ(back.grid, table.grid) << name;
     EXPECT_EQ(back.storage, table.storage) << name;
     EXPECT_EQ(back.stored, table.stored) << name;  // zeros lose their sign
@@ -50,7 +50,7 @@ TEST(TextureLayout, EveryFormatGivesBackTheTableThatItHolds) {
   for (const char* name : {"i.dds", "i.ktx2", "i.bin", "i.json", "i.js", "i.h"})
     expect_back(isotropic, name, TextureLayout::automatic);
   expect_back(isotropic, "eight.bin", TextureLayout::eight);
-  for (const char* name : {"v.dds", "v.ktx2", "v.bin"})
+  for (const char* name : {"v.dds", "v.ktx2", "v.bin", "v.json", "v.js", "v.h"})
     expect_back(paper, name, TextureLayout::automatic);
   for (const char* name : {"s.dds", "s.ktx2", "s.bin"})
     expect_back(paper, name, TextureLayout::stacked);
@@ -88,6 +88,16 @@ TEST(TextureLayout, RefusesWhatItCannotHold) {
   test::expect_one_line(
       test::message_of<InputError>([&] { write_table(table, folder / "t.dds", options); }),
       {"t_1.dds", "isotropic tables of storage inverse only"});
+  const Table isotropic = mirror_table(4, 4);
+  options.layout = TextureLayout::eight;
+  test::expect_one_line(
+      test::message_of<InputError>([&] { write_table(isotropic, folder / "t.ktx2", options); }),
+      {"KTX2 cannot hold this table", "four channels a texel"});
+  Table bare = isotropic;
+  bare.amplitude[5] = NAN;
+  test::expect_one_line(
+      test::message_of<InputError>([&] { write_table(bare, folder / "t.json"); }),
+      {"t.json: the table has no amplitude or no Fresnel term at entry (1, 0, 1, 0)"});
   EXPECT_NE(why_not(TextureLayout::volumes, testing::uneven_grid(), Storage::matrix), "");
   EXPECT_NE(why_not(TextureLayout::volumes, Grid::paper(3), Storage::mirror_frame), "");
   EXPECT_NE(why_not(TextureLayout::ltc_2017_07, isotropic_grid(4, 4), Storage::inverse), "");
