@@ -201,9 +201,8 @@ Table read_npy(const fs::path& path, std::optional<Layout> layout) {
   require_consistent(table, path);
   if (is_isotropic(grid)) {
     table.read_as =
-        "read as an isotropic table over alpha and theta, both linear, up to 89.1 degrees, as the "
-        "one "
-        "of Aakash et al. is";
+        "read as an isotropic table over alpha and theta, both linear, up to 89.1 degrees, as "
+        "that of Aakash et al. is";
     return table;
   }
   table.grid.layout = layout.value_or(layout_of(table));

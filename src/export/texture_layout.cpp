@@ -235,13 +235,12 @@ Table table_of(const std::vector<Image>& images, TextureLayout layout,
   if (layout == TextureLayout::automatic && least > farthest_mean && is_isotropic(best->grid))
     throw InputError(
         fmt::format("{}: images of no layout that is known, by how far its lobes are, in the mean, "
-                    "from the mirror's "
-                    "direction and from their due width: {}; expected up to {} of one",
+                    "from the mirror's direction and from their due width: {}; expected up to {} "
+                    "of one",
                     file.string(), judged, farthest_mean));
   best->read_as = fmt::format(
       "read with layout {}, by the shape of its images and by how far its lobes are, in the mean, "
-      "from "
-      "the mirror's direction and from their due width: {}",
+      "from the mirror's direction and from their due width: {}",
       best->read_as, judged);
   return *std::move(best);
 }
