@@ -33,8 +33,7 @@ TableFiles named(const std::filesystem::path& prefix, const std::vector<std::str
 }  // namespace
 
 TableFiles Format::files(const std::filesystem::path& prefix, TextureLayout layout) const {
-  const std::size_t index = set_for ? set_for(layout) : 0;
-  return named(prefix, index < sets.size() ? sets[index] : named_sets[index - sets.size()]);
+  return named(prefix, set_for ? set_for(layout) : sets.front());
 }
 
 TableFiles Format::all_files(const std::filesystem::path& prefix) const {

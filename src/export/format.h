@@ -56,8 +56,8 @@ struct Format {
   bool ending_of_others = false;
   // Sets that are called as others call them: read, and written by the layouts that are theirs.
   std::vector<std::vector<std::string>> named_sets = {};
-  // Which of the sets is written, those with names after the others; null: the first.
-  std::function<std::size_t(TextureLayout layout)> set_for = {};
+  // Which of these sets is written; null: the first of `sets`.
+  std::function<std::vector<std::string>(TextureLayout layout)> set_for = {};
   // Why it cannot hold tables of this grid, storage and layout, after "it"; empty where it can.
   // Null: it holds all.
   std::function<std::string(const Grid& grid, Storage storage, TextureLayout layout)> limits = {};

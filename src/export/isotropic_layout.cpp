@@ -23,10 +23,24 @@ constexpr int zero = IsotropicLayout::zero, one = IsotropicLayout::one,
 constexpr int middle = 4, last = 8;  // entries of S
 constexpr double right_angle = std::numbers::pi / 2;
 constexpr IsotropicAxes engine_axes = {Warp::sqrt, Warp::half_sine, right_angle};
-// Nine channels as an engine's row vectors have them, and as the paper's do.
+// Which channels S has: four with the middle entry 1; five; nine, as engines' row vectors have them
+// and as the paper's columns do.
+constexpr std::array<int, 9> middle_one = {0, zero, 2, zero, one, zero, 1, zero, 3};
+constexpr std::array<int, 9> of_five = {0, zero, 3, zero, 2, zero, 1, zero, 4};
 constexpr std::array<int, 9> by_columns = {0, 3, 6, 1, 4, 7, 2, 5, 8};
 constexpr std::array<int, 9> by_rows = {0, 1, 2, 3, 4, 5, 6, 7, 8};
 constexpr std::string_view nine = "one flat image of nine channels";
+
+// Of the paper's authors, over theta and either axis of roughness.
+constexpr IsotropicLayout by_rows_over(TextureLayout layout, Warp alpha) {
+  return {.layout = layout,
+          .images = nine,
+          .first_channels = 9,
+          .axes = {alpha, Warp::linear, steepest_theta},
+          .storage = Storage::matrix,
+          .stored = by_rows,
+          .read_only = true};
+}
 
 constexpr IsotropicLayout layouts[] = {
     {.layout = TextureLayout::ltc,
@@ -34,7 +48,7 @@ constexpr IsotropicLayout layouts[] = {
      .second_channels = 4,
      .second_may_miss = true,
      .axes = engine_axes,
-     .stored = {0, zero, 2, zero, one, zero, 1, zero, 3},
+     .stored = middle_one,
      .amplitude = 4,
      .fresnel = 5,
      .sphere = 7,
@@ -45,7 +59,7 @@ constexpr IsotropicLayout layouts[] = {
      .images = "two flat images of four channels",
      .second_channels = 4,
      .axes = engine_axes,
-     .stored = {0, zero, 3, zero, 2, zero, 1, zero, 4},
+     .stored = of_five,
      .amplitude = 5,
      .fresnel = 6,
      .read_only = true},
@@ -62,7 +76,7 @@ constexpr IsotropicLayout layouts[] = {
      .images = "one flat image of eight channels",
      .first_channels = 8,
      .axes = engine_axes,
-     .stored = {0, zero, 2, zero, one, zero, 1, zero, 3},
+     .stored = middle_one,
      .amplitude = 4,
      .fresnel = 5,
      .sphere = 7,
@@ -81,7 +95,7 @@ constexpr IsotropicLayout layouts[] = {
      .second_channels = 4,
      .axes = {Warp::sqrt, Warp::linear, right_angle},
      .storage = Storage::matrix,
-     .stored = {0, zero, 3, zero, 2, zero, 1, zero, 4},
+     .stored = of_five,
      .amplitude = 5,
      .fresnel = 6,
      .config = "godot",
@@ -102,20 +116,8 @@ constexpr IsotropicLayout layouts[] = {
      .axes = engine_axes,
      .stored = by_columns,
      .read_only = true},
-    {.layout = TextureLayout::rows,
-     .images = nine,
-     .first_channels = 9,
-     .axes = {Warp::linear, Warp::linear, steepest_theta},
-     .storage = Storage::matrix,
-     .stored = by_rows,
-     .read_only = true},
-    {.layout = TextureLayout::rows_sqrt,
-     .images = nine,
-     .first_channels = 9,
-     .axes = {Warp::sqrt, Warp::linear, steepest_theta},
-     .storage = Storage::matrix,
-     .stored = by_rows,
-     .read_only = true},
+    by_rows_over(TextureLayout::rows, Warp::linear),
+    by_rows_over(TextureLayout::rows_sqrt, Warp::sqrt),
 };
 
 // The clipped sphere's factor of a texel: column (cos + 1)/2, row the form factor.
@@ -170,20 +172,20 @@ const IsotropicLayout* isotropic_layout(TextureLayout layout) {
   return found == std::end(layouts) ? nullptr : found;
 }
 
-Grid grid_of(const IsotropicLayout& layout, std::size_t alphas, std::size_t thetas) {
+Grid grid_of(const IsotropicAxes& axes, std::size_t alphas, std::size_t thetas) {
   Grid grid;
-  grid.alpha = Axis::make(0, 1, alphas, layout.axes.alpha);
+  grid.alpha = Axis::make(0, 1, alphas, axes.alpha);
   grid.lambda = Axis::make(1, 1, 1, Warp::linear);
-  grid.theta = Axis::make(0, layout.axes.theta_last_radians, thetas, layout.axes.theta);
+  grid.theta = Axis::make(0, axes.theta_last_radians, thetas, axes.theta);
   grid.phi = Axis::make(0, 0, 1, Warp::linear);
-  grid.alpha_min = layout.axes.alpha_min;
+  grid.alpha_min = axes.alpha_min;
   return grid;
 }
 
 std::string why_not(const IsotropicLayout& layout, const Grid& grid, Storage storage) {
   if (layout.read_only)
     return fmt::format("takes layout {} for reading only", name_of(layout.layout));
-  const Grid expected = grid_of(layout, std::max<std::size_t>(grid.alpha.size(), 2),
+  const Grid expected = grid_of(layout.axes, std::max<std::size_t>(grid.alpha.size(), 2),
                                 std::max<std::size_t>(grid.theta.size(), 2));
   if (storage == layout.storage && grid == expected)
     return "";
@@ -205,7 +207,7 @@ std::string fault_of(const std::vector<Image>& images, const IsotropicLayout& la
 std::vector<Image> isotropic_images(const Table& table, const IsotropicLayout& layout) {
   const std::vector<std::size_t> source = nearest_fitted(table);
   const std::size_t channels[] = {layout.first_channels, layout.second_channels};
-  std::vector<Image> images(layout.second_channels ? 2 : 1);
+  std::vector<Image> images(layout.image_count());
   for (std::size_t i = 0; i < images.size(); ++i) {
     images[i].name = layout.names[i];
     images[i].width = table.grid.alpha.size();
@@ -232,7 +234,7 @@ Table isotropic_table(const std::vector<Image>& images, const IsotropicLayout& l
     if (side < 2 || side > max_nodes_per_axis)
       throw InputError(fmt::format("{}: {} x {} texels; expected 2 to {} each", file.string(),
                                    first.width, first.height, max_nodes_per_axis));
-  Table table = Table::empty(grid_of(layout, first.width, first.height), layout.storage);
+  Table table = Table::empty(grid_of(layout.axes, first.width, first.height), layout.storage);
   table.of_any_scale = layout.unit_entry != middle;
   table.without_albedo = layout.amplitude == none || layout.fresnel == none ||
                          (layout.second_channels && images.size() == 1);

@@ -43,13 +43,15 @@ struct IsotropicLayout {
   bool read_only = false;
   std::string_view config = "";                // whose tables it holds
   std::array<std::string_view, 2> names = {};  // of the images
+
+  std::size_t image_count() const { return second_channels > 0 ? 2 : 1; }  // in whole tables
 };
 
 // Null for other layouts.
 const IsotropicLayout* isotropic_layout(TextureLayout layout);
 
-// Its nodes in tables of this size.
-Grid grid_of(const IsotropicLayout& layout, std::size_t alphas, std::size_t thetas);
+// The nodes of isotropic tables of this size on such axes.
+Grid grid_of(const IsotropicAxes& axes, std::size_t alphas, std::size_t thetas);
 
 // Why it cannot hold tables of this grid and storage, after "it"; empty where it can.
 std::string why_not(const IsotropicLayout& layout, const Grid& grid, Storage storage);

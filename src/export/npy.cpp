@@ -23,6 +23,7 @@
 #include "export/consistency.h"
 #include "export/file.h"
 #include "export/format.h"
+#include "export/isotropic_layout.h"
 #include "export/npy_header.h"
 
 namespace ltc {
@@ -93,16 +94,9 @@ std::vector<std::size_t> parse_shape(std::string_view text, const fs::path& path
   return shape;
 }
 
-// The axes of the isotropic table that Aakash et al. publish beside theirs.
-Grid isotropic_grid_of_paper(std::size_t alphas, std::size_t thetas) {
-  Grid grid;
-  grid.alpha = Axis::make(0, 1, alphas, Warp::linear);
-  grid.lambda = Axis::make(1, 1, 1, Warp::linear);
-  grid.theta = Axis::make(0, 0.99 * std::numbers::pi / 2, thetas, Warp::linear);
-  grid.phi = Axis::make(0, 0, 1, Warp::linear);
-  grid.alpha_min = 0.01;
-  return grid;
-}
+// Of the isotropic table that Aakash et al. publish beside theirs.
+constexpr IsotropicAxes isotropic_axes = {Warp::linear, Warp::linear, 0.99 * std::numbers::pi / 2,
+                                          0.01};
 
 Grid read_grid(std::string_view dictionary, const fs::path& path) {
   if (const auto type = entry_of(dictionary, "descr", ",}", path); type != "'<f4'")
@@ -120,7 +114,7 @@ Grid read_grid(std::string_view dictionary, const fs::path& path) {
                             "3, 3) or (Nalpha, Ntheta, 3, 3) with 1 to {} nodes each",
                             fmt::join(shape, ", "), max_nodes_per_axis));
   return shape.size() == 6 ? Grid::paper({shape[0], shape[1], shape[2], shape[3]})
-                           : isotropic_grid_of_paper(shape[0], shape[1]);
+                           : grid_of(isotropic_axes, shape[0], shape[1]);
 }
 
 // Reads what follows the header; takes memory only once the file is known to have it.

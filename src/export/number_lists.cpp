@@ -153,10 +153,11 @@ class Walker {
 
   // C#'s "new double[64 * 64, 9]". Whether the type is that of the bits of halves.
   bool skip_new() {
-    if (!follows("new") ||
-        is_of_identifier(text_.substr(at_ + 3, 1).empty() ? ' ' : text_[at_ + 3]))
+    const std::size_t before = at_;
+    if (word() != "new") {
+      at_ = before;
       return false;
-    word();
+    }
     skip_blanks();
     const std::string type = word();
     skip_blanks();

@@ -20,13 +20,20 @@ namespace {
 // The largest texture of a table in text, and more.
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
+std::vector<std::string> two_of(const std::string& ending) {
+  return {"_1" + ending, "_2" + ending};
+}
+
+std::vector<std::string> three_of(const std::string& ending) {
+  return {".0" + ending, ".1" + ending, ".2" + ending};
+}
+
 std::vector<std::vector<std::string>> sets_of(const Container& container) {
   std::vector<std::vector<std::string>> sets;
-  const std::string& ending = container.endings.front();
   if (container.two_files)
-    sets.push_back({"_1" + ending, "_2" + ending});
+    sets.push_back(two_of(container.endings.front()));
   if (container.three_files)
-    sets.push_back({".0" + ending, ".1" + ending, ".2" + ending});
+    sets.push_back(three_of(container.endings.front()));
   sets.push_back(container.endings);
   return sets;
 }
@@ -38,16 +45,16 @@ std::vector<std::vector<std::string>> named_sets_of(const Container& container) 
   return sets;
 }
 
-std::size_t set_for(const Container& container, TextureLayout layout) {
+std::vector<std::string> set_for(const Container& container, TextureLayout layout) {
   const auto named = std::ranges::find(container.named, layout, &NamedLayout::layout);
   if (named != container.named.end())
-    return sets_of(container).size() + static_cast<std::size_t>(named - container.named.begin());
+    return named->endings;
   const std::size_t images = image_count(layout);
   if (images == 2 && container.two_files)
-    return 0;
+    return two_of(container.endings.front());
   if (images == 3 && container.three_files)
-    return container.two_files ? 1 : 0;
-  return sets_of(container).size() - 1;
+    return three_of(container.endings.front());
+  return container.endings;
 }
 
 // Whether each image has a file of its own in such a set.
@@ -123,9 +130,7 @@ Format texture_format(const Container& container) {
               [container](const TableFiles& files, const ReadAs& as) {
                 return table_of(decode_all(container, files), as.textures, files.front());
               },
-          .add = container.encode ? std::bind_front(add, container)
-                                  : std::function<void(platform::FileSet&, const Table&,
-                                                       const TableFiles&, const WriteOptions&)>()};
+          .add = container.encode ? std::bind_front(add, container) : decltype(Format::add)()};
 }
 
 }  // namespace ltc

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/angle.h"
 #include "core/error.h"
 #include "export/consistency.h"
 #include "export/entry_channels.h"
@@ -29,7 +29,8 @@ double mean_distance(const Table& table) {
     const Lobe lobe = table.grid.lobe(flat);
     if (lobe.alpha_x < 0.01 || lobe.alpha_x > 0.5 || lobe.theta_radians > 1.2)
       continue;
-    const Eigen::Matrix3d matrix = table.matrix_at(flat) / table.matrix_at(flat).col(2).norm();
+    Eigen::Matrix3d matrix = table.matrix_at(flat);
+    matrix /= matrix.col(2).norm();
     const double angle = std::acos(std::clamp(matrix.col(2).dot(lobe.mirror()), -1.0, 1.0));
     const double expected =
         lobe.alpha_x * lobe.alpha_y * lobe.model->first_order(lobe).determinant();
@@ -168,13 +169,9 @@ Table read_as(const std::vector<Image>& images, TextureLayout layout,
 
 }  // namespace
 
-Grid isotropic_grid(std::size_t alphas, std::size_t thetas) {
-  return grid_of(*isotropic_layout(TextureLayout::ltc), alphas, thetas);
-}
-
 std::size_t image_count(TextureLayout layout) {
   if (const IsotropicLayout* const isotropic = isotropic_layout(layout))
-    return isotropic->second_channels ? 2 : 1;
+    return isotropic->image_count();
   return layout == TextureLayout::volumes ? volumes : 1;
 }
 

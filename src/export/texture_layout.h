@@ -15,9 +15,6 @@
 
 namespace ltc {
 
-// The grid of `ltc`: perceptual roughness sqrt(alpha) and sqrt(1 - cos(theta)) even on [0, 1].
-Grid isotropic_grid(std::size_t alphas, std::size_t thetas);
-
 // Which layout `automatic` is for such a table, the first that can hold it; any other is itself.
 TextureLayout resolved(TextureLayout layout, const Grid& grid, Storage storage);
 

@@ -8,10 +8,8 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <map>
 #include <vector>
 
-#include "core/error.h"
 #include "export/images.h"
 #include "export/mirror_table.h"
 #include "export/texture_layout.h"
@@ -81,7 +79,7 @@ const TextureLayout layouts[] = {
 TEST(IsotropicLayout, EachIsToldFromTheOthersAndReadAsItsShadersDo) {
   for (const TextureLayout layout : layouts) {
     const std::string name(name_of(layout));
-    const Grid grid = grid_of(*isotropic_layout(layout), 9, 8);
+    const Grid grid = grid_of(isotropic_layout(layout)->axes, 9, 8);
     const Table table = testing::mirror_table(grid, isotropic_layout(layout)->storage);
     const std::vector<Image> images = images_of_texels(layout, table);
     const Table read = table_of(images, TextureLayout::automatic, "t");
@@ -107,7 +105,7 @@ TEST(IsotropicLayout, WhatIsWrittenIsWhatShadersRead) {
   for (const TextureLayout layout :
        {TextureLayout::ltc, TextureLayout::eight, TextureLayout::unity, TextureLayout::godot}) {
     const IsotropicLayout& about = *isotropic_layout(layout);
-    const Table table = testing::mirror_table(grid_of(about, 5, 4), about.storage);
+    const Table table = testing::mirror_table(grid_of(about.axes, 5, 4), about.storage);
     const std::vector<Image> written = images_of(table, layout);
     const std::vector<Image> expected = images_of_texels(layout, table);
     ASSERT_EQ(written.size(), expected.size());
@@ -128,7 +126,7 @@ TEST(IsotropicLayout, WhatIsWrittenIsWhatShadersRead) {
 // frame, whose second axis is the cosine's, with z away from the view and x = normal x z.
 TEST(IsotropicLayout, GodotsShaderInvertsToTheSameLobe) {
   const IsotropicLayout& about = *isotropic_layout(TextureLayout::godot);
-  const Table table = testing::mirror_table(grid_of(about, 4, 4), about.storage);
+  const Table table = testing::mirror_table(grid_of(about.axes, 4, 4), about.storage);
   const std::vector<Image> images = images_of(table, TextureLayout::godot);
   for (std::size_t row = 0; row < 4; ++row)
     for (std::size_t column = 1; column < 4; ++column) {
@@ -149,7 +147,7 @@ TEST(IsotropicLayout, GodotsShaderInvertsToTheSameLobe) {
 }
 
 TEST(IsotropicLayout, ProgramsOfSeveralTablesAreReadByTheirMatrices) {
-  const Grid grid = grid_of(*isotropic_layout(TextureLayout::columns), 8, 8);
+  const Grid grid = grid_of(isotropic_layout(TextureLayout::columns)->axes, 8, 8);
   const Table table = testing::mirror_table(grid, Storage::matrix);
   std::vector<Image> images = images_of_texels(TextureLayout::columns, table);
   const std::vector<Image> inverses = images_of_texels(TextureLayout::inverse_columns, table);
@@ -164,8 +162,8 @@ TEST(IsotropicLayout, ProgramsOfSeveralTablesAreReadByTheirMatrices) {
 }
 
 TEST(IsotropicLayout, LobesThatAreNowhereNearAreRefused) {
-  const Table table =
-      testing::mirror_table(grid_of(*isotropic_layout(TextureLayout::rows), 8, 8), Storage::matrix);
+  const Table table = testing::mirror_table(
+      grid_of(isotropic_layout(TextureLayout::rows)->axes, 8, 8), Storage::matrix);
   std::vector<Image> images = images_of_texels(TextureLayout::rows, table);
   std::reverse(images[0].values.begin(), images[0].values.end());
   testing::expect_refusal([&] { table_of(images, TextureLayout::automatic, "t.h"); },
@@ -175,11 +173,11 @@ TEST(IsotropicLayout, LobesThatAreNowhereNearAreRefused) {
 
 TEST(IsotropicLayout, UnitysIsOfPositiveLastEntriesOnly) {
   const IsotropicLayout& about = *isotropic_layout(TextureLayout::unity);
-  Table table = testing::mirror_table(grid_of(about, 3, 3), about.storage);
+  Table table = testing::mirror_table(grid_of(about.axes, 3, 3), about.storage);
   table.stored[9 * 4 + 8] = -1e-3f;
   testing::expect_refusal([&] { images_of(table, TextureLayout::unity); },
                           "entry 1,0,1,0: layout unity divides the inverse by its last entry");
-  EXPECT_NE(why_not(TextureLayout::unity, isotropic_grid(3, 3), Storage::inverse), "");
+  EXPECT_NE(why_not(TextureLayout::unity, testing::isotropic_grid(3, 3), Storage::inverse), "");
 }
 
 }  // namespace

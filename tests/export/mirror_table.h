@@ -5,9 +5,15 @@
 
 #include <Eigen/LU>
 
+#include "export/isotropic_layout.h"
 #include "table/table.h"
 
 namespace ltc::testing {
+
+// The grid of `ltc`: perceptual roughness sqrt(alpha) and sqrt(1 - cos(theta)) even on [0, 1].
+inline Grid isotropic_grid(std::size_t alphas, std::size_t thetas) {
+  return grid_of(isotropic_layout(TextureLayout::ltc)->axes, alphas, thetas);
+}
 
 // Of lobes of first order about the mirror's direction, scaled as the storage asks.
 inline Table mirror_table(const Grid& grid, Storage storage) {

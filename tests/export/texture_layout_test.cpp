@@ -24,7 +24,7 @@ namespace ltc {
 namespace {
 
 Table mirror_table(std::size_t alphas, std::size_t thetas) {
-  return testing::mirror_table(isotropic_grid(alphas, thetas), Storage::inverse);
+  return testing::mirror_table(testing::isotropic_grid(alphas, thetas), Storage::inverse);
 }
 
 TEST(TextureLayout, EveryFormatGivesBackTheTableThatItHolds) {
@@ -100,7 +100,8 @@ TEST(TextureLayout, RefusesWhatItCannotHold) {
       {"t.json: the table has no amplitude or no Fresnel term at entry (1, 0, 1, 0)"});
   EXPECT_NE(why_not(TextureLayout::volumes, testing::uneven_grid(), Storage::matrix), "");
   EXPECT_NE(why_not(TextureLayout::volumes, Grid::paper(3), Storage::mirror_frame), "");
-  EXPECT_NE(why_not(TextureLayout::ltc_2017_07, isotropic_grid(4, 4), Storage::inverse), "");
+  EXPECT_NE(why_not(TextureLayout::ltc_2017_07, testing::isotropic_grid(4, 4), Storage::inverse),
+            "");
   Image odd;
   odd.width = odd.height = 4;
   odd.channels = 3;
