@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "refine/query_system.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -10,20 +9,9 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "core/random.h"
 
 namespace ltc {
 namespace {
-
-constexpr std::size_t set_count = 8;
-constexpr std::size_t bins = 32;
-// Below this share of the loss a residual counts as zero.
-constexpr double smoothing_share = 0.05;
-
-Eigen::Matrix3d random_rotation(Random& random) {
-  const Eigen::Quaterniond turn(random.normal(), random.normal(), random.normal(), random.normal());
-  return turn.normalized().toRotationMatrix();
-}
 
 // The matrix P in the mirror's frame of a matrix S that a table of this storage interpolates, and
 // how it changes: dP = left dS right.
@@ -90,8 +78,7 @@ std::vector<std::size_t> ordered_by_cell(const TableNodes& nodes, const std::vec
 
 QuerySystem::QuerySystem(const TableNodes& nodes, const WeightedLobes& asked,
                          const QuerySampling& sampling, double shift, const RunContext& run)
-    : storage_(nodes.storage), node_count_(nodes.grid.size()) {
-  make_sets(sampling, shift);
+    : storage_(nodes.storage), node_count_(nodes.grid.size()), meter_(sampling, shift) {
   const Reduction reduction(nodes.grid);
   const std::vector<std::size_t> order = ordered_by_cell(nodes, asked.lobes, reduction, run);
   corners_of_node_.resize(node_count_);
@@ -105,8 +92,7 @@ QuerySystem::QuerySystem(const TableNodes& nodes, const WeightedLobes& asked,
         corners_of_node_[corners.nodes[corner]].push_back({cells_.size(), corner});
       cells_.push_back({corners.nodes, queries_.size(), queries_.size()});
     }
-    // Neighbours in a cell are measured with different sets.
-    queries_.push_back({folded, corners.weights, asked.weights[i], queries_.size() % set_count});
+    queries_.push_back({folded, corners.weights, asked.weights[i]});
     cells_.back().last = queries_.size();
   }
   models_.resize(queries_.size());
@@ -114,47 +100,20 @@ QuerySystem::QuerySystem(const TableNodes& nodes, const WeightedLobes& asked,
   targets_.resize(queries_.size());
 }
 
-void QuerySystem::make_sets(const QuerySampling& sampling, double shift) {
-  Random random(static_cast<std::uint64_t>(shift * 0x1p32));
-  for (std::size_t set = 0; set < set_count; ++set) {
-    const double turned = shift + static_cast<double>(set) / set_count;
-    sets_.push_back({make_cosine_set(static_cast<std::size_t>(sampling.samples), turned),
-                     make_target_lattice(static_cast<std::size_t>(sampling.target_samples), turned),
-                     {}});
-    const Eigen::Matrix3d rotation = random_rotation(random);
-    for (const Eigen::Vector3d& d :
-         fibonacci_directions(static_cast<std::size_t>(sampling.directions)))
-      sets_.back().directions.push_back((rotation * d).cast<float>());
-  }
-}
-
-void QuerySystem::see_target(const LobeFrame& frame, const SampleSet& set, Buffers& buffers,
-                             BinnedTarget& binned) const {
-  if (!binned.values.empty()) {
-    buffers.quantiles.rebuild(binned, set.directions, bins);
-    return;
-  }
-  sample_weighted_target(frame, set.lattice, buffers.target);
-  buffers.quantiles.build(buffers.target, set.directions, bins, buffers.model.xi,
-                          buffers.model.bins);
-  buffers.quantiles.keep(binned);
-}
-
-void QuerySystem::evaluate_query(const Query& query, const Eigen::Matrix3d& interpolated,
-                                 BinnedTarget& binned, Buffers& buffers, Model& model) const {
+void QuerySystem::evaluate_query(std::size_t q, const Eigen::Matrix3d& interpolated,
+                                 QueryMeter::Buffers& buffers) {
+  const Query& query = queries_[q];
+  Model& model = evaluated_[q];
   const LobeFrame frame(query.lobe);
-  const SampleSet& set = sets_[query.set];
-  see_target(frame, set, buffers, binned);
+  const double spread = meter_.see(frame, q, targets_[q], buffers), share = query.weight / spread;
   const FrameOfStored map = frame_of_stored(storage_, frame, interpolated);
-  const double spread = buffers.quantiles.spread(), share = query.weight / spread;
   if (!map.p.allFinite()) {
     model.loss = std::numeric_limits<double>::infinity();
     return;
   }
   ModelValue value;
   const double expected = model.loss > 0 ? model.loss / share : spread;
-  evaluate_model({frame, map.p, set.cosines, buffers.quantiles, 1, smoothing_share * expected},
-                 buffers.model, value);
+  meter_.measure(frame, q, map.p, expected, buffers, value);
   const Matrix9 to_frame = jacobian(map);
   model.loss = share * value.loss;
   model.gradient.noalias() = share * (to_frame.transpose() * value.gradient);
@@ -165,9 +124,9 @@ void QuerySystem::evaluate_query(const Query& query, const Eigen::Matrix3d& inte
 
 double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, const RunContext& run) {
   // The loss at the model in use tells each query's smoothing.
-  parallel_for<Buffers>(
-      cells_.size(), run, [] { return Buffers(); },
-      [&](std::size_t c, Buffers& buffers) {
+  parallel_for<QueryMeter::Buffers>(
+      cells_.size(), run, [] { return QueryMeter::Buffers(); },
+      [&](std::size_t c, QueryMeter::Buffers& buffers) {
         const Cell& cell = cells_[c];
         for (std::size_t q = cell.first; q < cell.last; ++q) {
           Eigen::Matrix3d interpolated = Eigen::Matrix3d::Zero();
@@ -175,7 +134,7 @@ double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, const R
             if (queries_[q].weights[corner] != 0)
               interpolated += queries_[q].weights[corner] * stored[cell.nodes[corner]];
           evaluated_[q].loss = models_[q].loss;
-          evaluate_query(queries_[q], interpolated, targets_[q], buffers, evaluated_[q]);
+          evaluate_query(q, interpolated, buffers);
         }
         run.advance(cell.last - cell.first);
       });
@@ -229,10 +188,8 @@ void QuerySystem::diagonal_blocks(std::vector<Matrix9>& blocks, const RunContext
 
 std::size_t QuerySystem::memory_bytes(const QuerySampling& sampling, std::size_t queries,
                                       std::size_t cells, std::size_t nodes) {
-  const auto directions = static_cast<std::size_t>(sampling.directions);
-  const std::size_t target = sizeof(BinnedTarget) + directions * (2 + 2 * bins) * sizeof(float);
-  const std::size_t query =
-      sizeof(Query) + 2 * sizeof(Model) + sizeof(Vector9) + target + 2 * sizeof(std::size_t);
+  const std::size_t query = sizeof(Query) + 2 * sizeof(Model) + sizeof(Vector9) +
+                            QueryMeter::target_bytes(sampling) + 2 * sizeof(std::size_t);
   // A node's corners grow by doubling, and may have just grown.
   return queries * query + cells * 2 * (sizeof(Cell) + 16 * sizeof(Corner)) +
          nodes * sizeof(std::vector<Corner>);

@@ -19,6 +19,7 @@
 #include "core/run_context.h"
 #include "fit/quantile_model.h"
 #include "refine/node_space.h"
+#include "refine/query_meter.h"
 #include "refine/refine_queries.h"
 #include "refine/refine_settings.h"
 #include "table/lookup.h"
@@ -56,7 +57,6 @@ class QuerySystem {
     Lobe lobe;
     std::array<double, 16> weights;  // of the cell's nodes
     double weight;                   // c_p
-    std::size_t set;                 // of samples and directions
   };
   // In the stored variables, times c_p / spread.
   struct Model {
@@ -69,23 +69,8 @@ class QuerySystem {
     std::array<std::size_t, 16> nodes;
     std::size_t first, last;  // queries
   };
-  struct SampleSet {
-    CosineSet cosines;
-    TargetLattice lattice;
-    std::vector<Eigen::Vector3f> directions;
-  };
-  struct Buffers {
-    TargetSamples target;
-    TargetQuantiles quantiles;
-    ModelWorkspace model;
-  };
-
-  void make_sets(const QuerySampling& sampling, double shift);
-  // The query's target: measured the first time, and kept, for it does not change.
-  void see_target(const LobeFrame& frame, const SampleSet& set, Buffers& buffers,
-                  BinnedTarget& binned) const;
-  void evaluate_query(const Query& query, const Eigen::Matrix3d& interpolated, BinnedTarget& binned,
-                      Buffers& buffers, Model& model) const;
+  void evaluate_query(std::size_t q, const Eigen::Matrix3d& interpolated,
+                      QueryMeter::Buffers& buffers);
   // Sums at every node what `part` adds for each query of its cells.
   template <typename Value, typename Part>
   void gather(std::vector<Value>& result, const RunContext& run, const Value& zero,
@@ -97,7 +82,7 @@ class QuerySystem {
 
   Storage storage_;
   std::size_t node_count_;
-  std::vector<SampleSet> sets_;
+  QueryMeter meter_;
   std::vector<Query> queries_;  // cell by cell
   std::vector<Cell> cells_;
   std::vector<std::vector<Corner>> corners_of_node_;
