@@ -26,4 +26,8 @@ struct Lobe {
   Eigen::Vector3d mirror() const;
 };
 
+// The least rotation from z to the mirror direction (-vx, -vy, vz) of a unit view direction, vz >
+// -1.
+Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v);
+
 }  // namespace ltc

@@ -69,8 +69,8 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
                     const RunContext& run, std::vector<Eigen::Matrix3d>& stored) {
   const WeightedLobes refined_on =
       queries_to_refine_on(nodes.grid, nodes.has_values, asked, settings);
-  const WeightedLobes held_out =
-      queries_held_out(nodes.grid, asked, settings, refined_on.lobes.size());
+  const WeightedLobes held_out = queries_held_out(nodes.grid.alpha_min, *nodes.grid.model, asked,
+                                                  settings, refined_on.lobes.size());
   const Stage stage(run, "refine",
                     evaluations(settings) * (refined_on.lobes.size() + held_out.lobes.size()));
   QuerySystem queries(nodes, refined_on, settings.sampling, refined_shift, run);

@@ -18,18 +18,6 @@ void add(const std::vector<Lobe>& more, double share, WeightedLobes& queries) {
                          share / static_cast<double>(more.size()));
 }
 
-// `count` lobes, the ranges in turn, each with what `draw` makes of it for its own part.
-template <typename Draw>
-std::vector<Lobe> from_all(const std::vector<QueryRange>& asked, std::size_t count, Draw&& draw) {
-  std::vector<Lobe> lobes;
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    const std::size_t part = (count + asked.size() - 1 - i) / asked.size();
-    const std::vector<Lobe> more = draw(asked[i], part, i);
-    lobes.insert(lobes.end(), more.begin(), more.end());
-  }
-  return lobes;
-}
-
 // Uniform in the interpolation coordinates: no cell without a query.
 std::vector<Lobe> lobes_of_table(const Grid& grid, std::size_t count) {
   std::vector<Lobe> lobes;
@@ -66,6 +54,18 @@ std::size_t cell_count(const Grid& grid, const std::vector<bool>& has_values) {
 
 }  // namespace
 
+std::vector<Lobe> lobes_in_turn(
+    const std::vector<QueryRange>& asked, std::size_t count,
+    const std::function<std::vector<Lobe>(const QueryRange&, std::size_t, std::size_t)>& draw) {
+  std::vector<Lobe> lobes;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const std::size_t part = (count + asked.size() - 1 - i) / asked.size();
+    const std::vector<Lobe> more = draw(asked[i], part, i);
+    lobes.insert(lobes.end(), more.begin(), more.end());
+  }
+  return lobes;
+}
+
 std::size_t refined_query_count(const Grid& grid, const std::vector<bool>& has_values,
                                 const RefineSettings& settings) {
   std::size_t count =
@@ -83,23 +83,24 @@ WeightedLobes queries_to_refine_on(const Grid& grid, const std::vector<bool>& ha
   const auto of_table = static_cast<std::size_t>(settings.table_share * static_cast<double>(count));
   const double free_weight = 1 - settings.node_weight;
   WeightedLobes queries;
-  add(from_all(asked, count - of_table,
-               [&](const QueryRange& range, std::size_t part, std::size_t) {
-                 return lattice_queries(range, 0, part, grid.alpha_min, *grid.model);
-               }),
+  add(lobes_in_turn(asked, count - of_table,
+                    [&](const QueryRange& range, std::size_t part, std::size_t) {
+                      return lattice_queries(range, 0, part, grid.alpha_min, *grid.model);
+                    }),
       free_weight * (1 - settings.table_share), queries);
   add(lobes_of_table(grid, of_table), free_weight * settings.table_share, queries);
   add(lobes_of_nodes(grid, has_values), settings.node_weight, queries);
   return queries;
 }
 
-WeightedLobes queries_held_out(const Grid& grid, const std::vector<QueryRange>& asked,
-                               const RefineSettings& settings, std::size_t most) {
+WeightedLobes queries_held_out(double alpha_min, const LobeModel& model,
+                               const std::vector<QueryRange>& asked, const RefineSettings& settings,
+                               std::size_t most) {
   WeightedLobes queries;
-  add(from_all(asked, std::min(static_cast<std::size_t>(settings.held_out_queries), most),
-               [&](const QueryRange& range, std::size_t part, std::size_t i) {
-                 return random_queries(range, part, held_out_seed + i, grid.alpha_min, *grid.model);
-               }),
+  add(lobes_in_turn(asked, std::min(static_cast<std::size_t>(settings.held_out_queries), most),
+                    [&](const QueryRange& range, std::size_t part, std::size_t i) {
+                      return random_queries(range, part, held_out_seed + i, alpha_min, model);
+                    }),
       1, queries);
   return queries;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "refine/refine_settings.h"
@@ -38,7 +39,13 @@ WeightedLobes queries_to_refine_on(const Grid& grid, const std::vector<bool>& ha
 
 // Drawn at random, and of equal weight; no more than `most`, those refined on: a small part of a
 // table is not judged for longer than it is refined.
-WeightedLobes queries_held_out(const Grid& grid, const std::vector<QueryRange>& asked,
-                               const RefineSettings& settings, std::size_t most);
+WeightedLobes queries_held_out(double alpha_min, const LobeModel& model,
+                               const std::vector<QueryRange>& asked, const RefineSettings& settings,
+                               std::size_t most);
+
+// `count` lobes, the ranges in turn: what draw(range, how many, which range) makes of each part.
+std::vector<Lobe> lobes_in_turn(
+    const std::vector<QueryRange>& asked, std::size_t count,
+    const std::function<std::vector<Lobe>(const QueryRange&, std::size_t, std::size_t)>& draw);
 
 }  // namespace ltc

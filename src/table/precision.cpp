@@ -4,11 +4,13 @@
 
 namespace ltc {
 
+float rounded(float value, Precision precision) {
+  return precision == Precision::half ? static_cast<float>(Eigen::half(value)) : value;
+}
+
 Eigen::Matrix3d rounded(const Eigen::Matrix3d& matrix, Precision precision) {
-  return matrix.unaryExpr([=](double value) -> double {
-    const auto single = static_cast<float>(value);
-    return precision == Precision::half ? static_cast<float>(Eigen::half(single)) : single;
-  });
+  return matrix.unaryExpr(
+      [=](double value) -> double { return rounded(static_cast<float>(value), precision); });
 }
 
 }  // namespace ltc

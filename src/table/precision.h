@@ -14,8 +14,10 @@ inline float largest_value(Precision precision) {
   return precision == Precision::half ? 65504.0f : std::numeric_limits<float>::max();
 }
 
-// Every entry the nearest that the precision has, ties to even, as processors and texture units
-// round; infinite where it is beyond the largest.
+// The nearest that the precision has, ties to even, as processors and texture units round; infinite
+// where it is beyond the largest.
+float rounded(float value, Precision precision);
+// Every entry.
 Eigen::Matrix3d rounded(const Eigen::Matrix3d& matrix, Precision precision);
 
 }  // namespace ltc

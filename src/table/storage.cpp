@@ -10,18 +10,6 @@ double scale_of(Storage storage, const Eigen::Matrix3d& stored) {
   return storage == Storage::inverse ? stored(1, 1) : stored.col(2).norm();
 }
 
-// 1 - x^2/(1 + z) = (y^2 + z + z^2)/(1 + z): of a grazing view nothing else would be left than the
-// rounding of 1.
-Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v) {
-  const double x = omega_v.x(), y = omega_v.y(), z = omega_v.z();
-  const double s = 1 / (1 + z);
-  Eigen::Matrix3d rotation;
-  rotation << z + y * y * s, -x * y * s, -x,  //
-      -x * y * s, z + x * x * s, -y,          //
-      x, y, z;
-  return rotation;
-}
-
 Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& stored,
                                    const Lobe& lobe) {
   if (storage == Storage::matrix)

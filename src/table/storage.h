@@ -28,10 +28,6 @@ constexpr EnumNames<Storage, 4> enum_names(Storage) {
             {Storage::inverse, "inverse"}}}};
 }
 
-// The least rotation from z to the mirror direction (-vx, -vy, vz) of a unit view direction, vz >
-// -1.
-Eigen::Matrix3d mirror_rotation(const Eigen::Vector3d& omega_v);
-
 // What S is divided by to have the scale of the storage: the length of its third column, or its
 // middle entry. 1 of every S in a table, but for rounding.
 double scale_of(Storage storage, const Eigen::Matrix3d& stored);
