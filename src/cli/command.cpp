@@ -16,6 +16,7 @@ Action declare_validate(CLI::App& app);
 Action declare_bench(CLI::App& app);
 Action declare_render(CLI::App& app);
 Action declare_convert(CLI::App& app);
+Action declare_bake(CLI::App& app);
 Action declare_lookup(CLI::App& app);
 Action declare_stress(CLI::App& app);
 Action declare_completion(CLI::App& app);
@@ -48,6 +49,7 @@ std::span<const Command> commands() {
       {"render", "Compare and validate tables", "render spheres with a table and with sampled GGX",
        declare_render},
       {"convert", "Use tables", "write a table in another format or layout", declare_convert},
+      {"bake", "Use tables", "make a table of any grid from a field", declare_bake},
       {"lookup", "Use tables", "print what a table gives for the lobes of a file", declare_lookup},
       {"completion", "Help at hand", "print a script by which bash, zsh or fish complete commands",
        declare_completion},

@@ -20,6 +20,7 @@ struct Arguments {
   std::string input, output;
   std::optional<ReadAs> layout;
   WriteOptions options;
+  bool functions = false;
 };
 
 std::string written_endings() {
@@ -28,7 +29,7 @@ std::string written_endings() {
 
 void convert(const Arguments& arguments, Files& files) {
   const Table table = read_input(arguments.input, arguments.layout);
-  const NamedSet output = set_of(arguments.output);
+  const NamedSet output = set_to_write(arguments.output, table.field || arguments.functions);
   if (!output.format)
     throw InputError(fmt::format("-o {}: no suffix of a table; expected {}",
                                  one_line(arguments.output), written_endings()));
@@ -42,7 +43,9 @@ void convert(const Arguments& arguments, Files& files) {
                                  one_line(written.front().string())));
   for (const std::filesystem::path& file : written)
     files.write("-o", file);
-  write_table(table, arguments.output, arguments.options);
+  platform::FileSet set;
+  add_table(set, table, *output.format, output.prefix, arguments.options);
+  set.commit();
   std::string text;
   for (const std::filesystem::path& file : written)
     text += fmt::format("wrote {}\n", one_line(file.string()));
@@ -76,6 +79,10 @@ Action declare_convert(CLI::App& app) {
   add_names_option(app, "--script", arguments->options.javascript_style,
                    "what a .js is: a module of arrays, or the one that three.js imports [arrays]")
       ->option_text("STYLE")
+      ->group("What to write");
+  app.add_flag(
+         "--functions", arguments->functions,
+         "a .h that looks up, integrates and samples, not the arrays alone; of fields, always")
       ->group("What to write");
   add_layout_option(app, arguments->layout);
   return [arguments](Files& files) { convert(*arguments, files); };

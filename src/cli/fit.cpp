@@ -294,7 +294,7 @@ void add_lobe_options(CLI::App& app, Arguments& arguments) {
       app, "--as-in", arguments.as_in,
       fmt::format("fit no entry: show what this table ({}) holds for the entry or gives for the "
                   "lobe, and what a fit of that very lobe would [none]",
-                  endings_text()))
+                  endings_text(is_read)))
       ->group(group);
   add_input_option(app, "--scene", arguments.scene, "the scene that the table was made for [none]")
       ->group(group);

@@ -87,7 +87,7 @@ CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::strin
 
 void add_table_argument(CLI::App& app, const std::string& name, std::string& file,
                         const std::string& what) {
-  add_input_option(app, name, file, what + ", " + endings_text())->required();
+  add_input_option(app, name, file, what + ", " + endings_text(is_read))->required();
 }
 
 CLI::Option* add_output_option(CLI::App& app, const std::string& name, std::string& file,

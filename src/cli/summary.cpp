@@ -95,6 +95,21 @@ std::string refine_text(const GenerateReport& made) {
       report.steps, report.queries, report.loss_after, report.loss_before);
 }
 
+std::string field_text(const RunReport& report) {
+  if (!report.generate.field)
+    return "";
+  const FieldReport& made = *report.generate.field;
+  const auto& terms = report.table.field->terms;
+  const auto of_matrix = static_cast<std::size_t>(std::ranges::count_if(
+      terms, [](const FieldTerm& t) { return t.part < FieldPart::amplitude; }));
+  return fmt::format(
+      "field    {} numbers for the matrix, of {}, and {} for the albedo; {} steps over {} queries\n"
+      "         mean relative loss of held-out queries {:.4f}\n"
+      "         amplitude off by {:.1e} in the mean, {:.1e} at most, Fresnel term {:.1e}, {:.1e}\n",
+      of_matrix, made.pool, terms.size() - of_matrix, made.steps, made.queries, made.loss,
+      made.amplitude_error, made.amplitude_error_most, made.fresnel_error, made.fresnel_error_most);
+}
+
 std::string worst_text(const Table& table, const TableSummary& summary,
                        const SummaryCommands& commands) {
   std::string text;
@@ -122,7 +137,7 @@ std::string summary_text(const RunReport& report, const SummaryCommands& command
                       static_cast<double>(report.peak_memory_bytes) / 1e6);
   text += entries_text(summary);
   text += scene_text(report);
-  text += refine_text(report.generate) + range_text(report.generate);
+  text += refine_text(report.generate) + range_text(report.generate) + field_text(report);
   text += azimuth_text(table.grid);
   text += loss_text(summary);
   text += fmt::format("symmetry largest value zeroed {:.1e}, at entry {}\n",

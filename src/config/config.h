@@ -12,6 +12,7 @@
 
 #include "config/output_settings.h"
 #include "fit/settings.h"
+#include "refine/field_settings.h"
 #include "refine/refine_settings.h"
 #include "table/grid.h"
 #include "table/storage.h"
@@ -23,6 +24,7 @@ struct Config {
   Grid grid = Grid::paper();
   FitSettings fit;
   RefineSettings refine;
+  FieldSettings field;
   OutputSettings output;
 };
 

@@ -56,6 +56,7 @@ constexpr EnumNames<ScriptStyle, 2> enum_names(ScriptStyle) {
 
 struct OutputSettings {
   std::string name = "ltc";  // files are <name>.h5, <name>.0.exr, …, <name>.npy
+  bool field = true;
   bool hdf5 = true;
   bool exr = true;
   bool npy = true;
@@ -65,6 +66,8 @@ struct OutputSettings {
   bool javascript = false;
   bool c_header = false;
   bool c_sharp = false;
+  bool header = false;   // C header with functions
+  bool shaders = false;  // of fields
   bool raw = false;
   bool exr_half = false;  // 16-bit OpenEXR instead of 32-bit
   bool half = true;       // 16-bit values in DDS, KTX2 and raw files

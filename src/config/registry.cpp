@@ -104,9 +104,22 @@ std::vector<Key> refine_keys() {
   };
 }
 
+std::vector<Key> field_keys() {
+  return {
+      key("field.size", [](Draft& d) { return &d.config.field.size; }, {0, 8192}, "numbers of a field's matrix; 0 for a table of fits, no field"),
+      key("field.albedo_size", [](Draft& d) { return &d.config.field.albedo_size; }, {10, 2000}, "numbers of its amplitude and Fresnel term together"),
+      key("field.loss", [](Draft& d) { return &d.config.field.loss; }, {0, 1}, "the smallest field whose held-out loss is at most this, of at most field.size; 0: of that size"),
+      key("field.half", [](Draft& d) { return &d.config.field.half; }, "coefficients that 16 bits hold, rounded while they are fitted"),
+      key("field.queries", [](Draft& d) { return &d.config.field.queries; }, {1000, 1'000'000}, "look-ups that the field is fitted to"),
+      key("field.edge_share", [](Draft& d) { return &d.config.field.edge_share; }, {0, 1}, "share of them spread over the whole domain, its edges too, not as asked for"),
+      key("field.steps", [](Draft& d) { return &d.config.field.steps; }, {1, 1000}, "most steps once its terms are chosen"),
+  };
+}
+
 std::vector<Key> output_keys() {
   return {
       file_name_key("output.name", [](Draft& d) { return &d.config.output.name; }, "the files are NAME.h5, NAME.0.exr and so on"),
+      key("output.field", [](Draft& d) { return &d.config.output.field; }, "write NAME_field.json where there is a field"),
       key("output.hdf5", [](Draft& d) { return &d.config.output.hdf5; }, "write HDF5: everything, with what made it"),
       key("output.exr", [](Draft& d) { return &d.config.output.exr; }, "write OpenEXR textures: for engines"),
       key("output.npy", [](Draft& d) { return &d.config.output.npy; }, "write NPY: the matrices alone"),
@@ -116,6 +129,8 @@ std::vector<Key> output_keys() {
       key("output.javascript", [](Draft& d) { return &d.config.output.javascript; }, "write the textures as a JavaScript module"),
       key("output.c_header", [](Draft& d) { return &d.config.output.c_header; }, "write the textures as a C header"),
       key("output.c_sharp", [](Draft& d) { return &d.config.output.c_sharp; }, "write the texture as Unity's C#; needs layout = \"unity\""),
+      key("output.header", [](Draft& d) { return &d.config.output.header; }, "write a C header that looks up, integrates polygons and samples; in place of c_header"),
+      key("output.shaders", [](Draft& d) { return &d.config.output.shaders; }, "write a field as functions in GLSL, HLSL, WGSL and JavaScript"),
       key("output.raw", [](Draft& d) { return &d.config.output.raw; }, "write the textures' bytes, with a JSON file beside that describes them"),
       key("output.exr_half", [](Draft& d) { return &d.config.output.exr_half; }, "16-bit OpenEXR instead of 32-bit"),
       key("output.half", [](Draft& d) { return &d.config.output.half; }, "16-bit values in DDS, KTX2 and raw files, else 32-bit"),
@@ -131,7 +146,7 @@ std::vector<Key> output_keys() {
 const std::vector<Key>& keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> keys;
-    for (const std::vector<Key>& section : {table_keys(), fit_keys(), refine_keys(), output_keys()})
+    for (const std::vector<Key>& section : {table_keys(), fit_keys(), refine_keys(), field_keys(), output_keys()})
       keys.insert(keys.end(), section.begin(), section.end());
     return keys;
   }();

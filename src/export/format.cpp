@@ -5,21 +5,39 @@
 #include <algorithm>
 #include <iterator>
 
+#include "export/field_code.h"
+#include "export/field_file.h"
+
 namespace ltc {
 
 // Each in the file of its name.
 Format hdf5_format(), exr_format(), npy_format(), dds_format(), ktx2_format(), raw_format(),
     json_format(), javascript_format(), c_header_format(), c_sharp_format(), octave_format(),
-    c_source_format(const char*ending);
+    c_source_format(const char*ending), header_format(),
+    field_function_format(const char*ending, CodeLanguage language);
 
 namespace {
 
 std::list<Format>& list() {
-  static std::list<Format> all = {
-      hdf5_format(),          exr_format(),     npy_format(),    dds_format(),
-      ktx2_format(),          raw_format(),     json_format(),   javascript_format(),
-      c_header_format(),      c_sharp_format(), octave_format(), c_source_format(".inc"),
-      c_source_format(".inl")};
+  static std::list<Format> all = {field_format(),
+                                  hdf5_format(),
+                                  exr_format(),
+                                  npy_format(),
+                                  dds_format(),
+                                  ktx2_format(),
+                                  raw_format(),
+                                  json_format(),
+                                  javascript_format(),
+                                  c_header_format(),
+                                  c_sharp_format(),
+                                  octave_format(),
+                                  c_source_format(".inc"),
+                                  c_source_format(".inl"),
+                                  header_format(),
+                                  field_function_format(".glsl", CodeLanguage::glsl),
+                                  field_function_format(".hlsl", CodeLanguage::hlsl),
+                                  field_function_format(".wgsl", CodeLanguage::wgsl),
+                                  field_function_format(".mjs", CodeLanguage::javascript)};
   return all;
 }
 
@@ -79,6 +97,15 @@ NamedSet set_of(const std::filesystem::path& file) {
   return found;
 }
 
+NamedSet set_to_write(const std::filesystem::path& file, bool functions) {
+  NamedSet set = set_of(file);
+  if (functions && set.format)
+    for (const Format& format : formats())
+      if (format.asked == &OutputSettings::header && format.sets == set.format->sets)
+        set.format = &format;
+  return set;
+}
+
 WriteOptions write_options(const Format& format, const OutputSettings& output) {
   return {format.half && output.*format.half, output.layout, output.zstd, output.javascript_style};
 }
@@ -86,8 +113,9 @@ WriteOptions write_options(const Format& format, const OutputSettings& output) {
 std::string endings_text(const std::function<bool(const Format&)>& which) {
   std::vector<std::string> endings;
   for (const Format& format : formats())
-    if (which(format))
-      endings.push_back(format.sets.back().front());
+    if (const std::string& ending = format.sets.back().front();
+        which(format) && std::ranges::find(endings, ending) == endings.end())
+      endings.push_back(ending);
   std::string text;
   for (std::size_t i = 0; i < endings.size(); ++i)
     text += (i == 0 ? "" : i + 1 < endings.size() ? ", " : " or ") + endings[i];

@@ -50,6 +50,7 @@ struct Format {
   std::size_t entry_bytes = 0;  // of an entry, uncompressed, in values of 32 bits
   // The key that asks for 16-bit values; null: it has none.
   bool OutputSettings::*half = nullptr;
+  bool of_fields = false;     // whether it holds fields alone
   bool without_axes = false;  // whether a reader is to be told the layout of the grid
   // Whether others use such names for files of their own, so that none is removed as an older one
   // of the set.
@@ -77,11 +78,13 @@ struct Format {
   TableFiles all_files(const std::filesystem::path& prefix) const;
   // The same for any format: one that names its axes calls them alpha and lambda.
   std::string why_not(const Grid& grid, Storage storage, TextureLayout layout) const;
-  // Whether [output] asks for it, and whether it can hold the config's table too.
-  bool is_asked(const OutputSettings& output) const { return asked && output.*asked; }
+  // Whether the config asks for it, a format of fields with a field; and whether it can hold the
+  // config's table too.
+  bool is_asked(const Config& config) const {
+    return asked && config.output.*asked && (!of_fields || config.field.size > 0);
+  }
   bool is_written(const Config& config) const {
-    return is_asked(config.output) &&
-           why_not(config.grid, config.storage, config.output.layout).empty();
+    return is_asked(config) && why_not(config.grid, config.storage, config.output.layout).empty();
   }
 };
 
@@ -105,6 +108,11 @@ inline bool keeps_fits(const Format& format) {
   return format.contents.loss;
 }
 
+// Whether files of a format can be read, which of functions in a language they cannot.
+inline bool is_read(const Format& format) {
+  return static_cast<bool>(format.read);
+}
+
 // The format of a file of such a name; null where none has its ending.
 const Format* find_format(const std::filesystem::path& file);
 
@@ -116,6 +124,10 @@ struct NamedSet {
   TableFiles files;
 };
 NamedSet set_of(const std::filesystem::path& file);
+
+// The set to write to a file of such a name: where two formats share an ending, as arrays and
+// functions in C do, the one of functions if so asked.
+NamedSet set_to_write(const std::filesystem::path& file, bool functions);
 
 // What the options of [output] are to a format.
 WriteOptions write_options(const Format& format, const OutputSettings& output);

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the ltcfit authors
 // Tables as HDF5: all that is known of every entry. docs/files.md says what lies where.
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +16,7 @@
 #include "core/error.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
+#include "export/field_file.h"
 #include "export/format.h"
 #include "export/hdf5_file.h"
 #include "export/hdf5_guard.h"
@@ -28,6 +31,8 @@ const std::string root = "/";
 // The attributes `format` and `format_version`.
 constexpr const char* table_format = "ltc-table";
 constexpr int table_format_version = 1;
+// That of a table that a field stands for.
+const std::string field_attribute = "field_basis";
 
 std::string axis_dataset(std::string_view axis) {
   return fmt::format("axis/{}", axis);
@@ -79,6 +84,21 @@ void write_entries(Hdf5Output& file, const Table& table) {
   file.values<std::uint8_t>("status", shape,
                             {reinterpret_cast<const std::uint8_t*>(status.data()), status.size()});
   file.values<std::uint16_t>("iterations", shape, table.iterations);
+}
+
+// A row a term: its part, then its numbers.
+constexpr std::size_t term_bytes = 1 + std::tuple_size_v<decltype(numbers_of({}))>;
+
+void write_field(Hdf5Output& file, const Field& field) {
+  file.text(root, field_attribute, std::string(field_basis_name));
+  file.group("field");
+  std::vector<std::uint8_t> rows;
+  for (const FieldTerm& term : field.terms) {
+    rows.push_back(static_cast<std::uint8_t>(term.part));
+    std::ranges::copy(numbers_of(term), std::back_inserter(rows));
+  }
+  file.values<std::uint8_t>("field/terms", {field.terms.size(), term_bytes}, rows);
+  file.values<float>("field/coefficients", {field.terms.size()}, field.coefficients);
 }
 
 void require_format(const Hdf5Input& file, const fs::path& path) {
@@ -169,6 +189,27 @@ void read_entries(const Hdf5Input& file, const fs::path& path, Table& table) {
   table.iterations = file.values<std::uint16_t>("iterations", shape);
 }
 
+std::optional<Field> read_field(const Hdf5Input& file, const fs::path& path, const Grid& grid) {
+  if (!file.has_attribute(root, field_attribute))
+    return std::nullopt;
+  if (const std::string basis = file.text(root, field_attribute); basis != field_basis_name)
+    throw InputError(fmt::format("{}: attribute {} is \"{}\"; allowed: \"{}\"", path.string(),
+                                 field_attribute, basis, field_basis_name));
+  const std::vector<std::size_t> shape = file.shape("field/coefficients");
+  const std::size_t count = shape.size() == 1 ? shape[0] : 0;
+  const auto rows = file.values<std::uint8_t>("field/terms", {count, term_bytes});
+  Field field{grid.alpha_min, grid.model, {}, file.values<float>("field/coefficients", {count})};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t* const row = rows.data() + i * term_bytes;
+    if (row[0] >= field_part_count)
+      throw InputError(fmt::format("{}: dataset field/terms names part {}; allowed: 0 to {}",
+                                   path.string(), row[0], field_part_count - 1));
+    field.terms.push_back({static_cast<FieldPart>(row[0]), row[1], row[2], row[3], row[4], row[5]});
+  }
+  require_consistent(field, path);
+  return field;
+}
+
 Table read_hdf5(const fs::path& path) {
   require_harmless(path, [&path] { read_hdf5_unguarded(path); });
   return read_hdf5_unguarded(path);
@@ -179,6 +220,8 @@ void add_hdf5(platform::FileSet& set, const Table& table, const fs::path& path) 
   write_attributes(file, table);
   write_axes(file, table.grid);
   write_entries(file, table);
+  if (table.field)
+    write_field(file, *table.field);
   add_file(set, path, file.finish());
 }
 
@@ -191,6 +234,7 @@ Table read_hdf5_unguarded(const fs::path& path) {
   table.grid = read_grid(file, path);
   read_attributes(file, path, table);
   read_entries(file, path, table);
+  table.field = read_field(file, path, table.grid);
   require_consistent(table, path);
   return table;
 }

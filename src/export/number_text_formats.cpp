@@ -6,6 +6,8 @@
 
 #include <cctype>
 
+#include "core/read_file.h"
+#include "export/field_file.h"
 #include "export/number_text.h"
 #include "export/octave.h"
 #include "export/texture_format.h"
@@ -73,8 +75,9 @@ std::string guard_of(const std::filesystem::path& file) {
 
 }  // namespace
 
+// Or a field under another name.
 Format json_format() {
-  return texture_format(
+  Format format = texture_format(
       {.name = "JSON",
        .endings = {".json"},
        .asked = &OutputSettings::json,
@@ -85,6 +88,13 @@ Format json_format() {
            [](const std::vector<NamedBytes>& files) {
              return decode_json(files.front().bytes, files.front().file);
            }});
+  format.read = [arrays = format.read](const TableFiles& files, const ReadAs& as) {
+    constexpr std::size_t beginning = 64;
+    return is_field(read_first_bytes(files.front(), "table", beginning))
+               ? field_format().read(files, as)
+               : arrays(files, as);
+  };
+  return format;
 }
 
 Format javascript_format() {

@@ -30,6 +30,9 @@ NamedSet require_set(const std::filesystem::path& path) {
 
 Table read_table(const std::filesystem::path& path, const ReadAs& as) {
   const NamedSet set = require_set(path);
+  if (!set.format->read)
+    throw InputError(fmt::format("{}: files of {} are only written; allowed: {}", path.string(),
+                                 set.format->name, endings_text(is_read)));
   return set.format->read(set.files, as);
 }
 
@@ -49,6 +52,9 @@ void add_table(platform::FileSet& set, const Table& table, const Format& format,
   if (const std::string why = format.why_not(table.grid, table.storage, layout); !why.empty())
     throw InputError(fmt::format("{}: {} cannot hold this table: it {}", files.front().string(),
                                  format.name, why));
+  if (format.of_fields && !table.field)
+    throw InputError(fmt::format("{}: {} holds fields, and this is a table of nodes",
+                                 files.front().string(), format.name));
   WriteOptions of_table = options;
   of_table.layout = layout;
   format.add(set, table, files, of_table);

@@ -192,6 +192,8 @@ class Checks {
     constexpr const char* name = "half precision";
     if (table_.precision == Precision::half)
       return not_checked(name, limits_.half_error, "its values have 16 bits already");
+    if (table_.field)
+      return not_checked(name, limits_.half_error, "a field's matrices are not stored");
     return judged(name, limits_.half_error, invertible_,
                   half_precision_errors(table_, invertible_, run_));
   }

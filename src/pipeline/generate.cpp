@@ -19,6 +19,7 @@
 #include "pipeline/post_process.h"
 #include "postprocess/normalise.h"
 #include "refine/refine_queries.h"
+#include "table/field_table.h"
 #include "table/query_range.h"
 
 namespace ltc {
@@ -77,7 +78,9 @@ MemoryNeeded memory_needed(const Config& config, const std::vector<bool>& needed
   const auto fits = static_cast<std::size_t>(2 + 2 * (1 + sweep_count(config.fit)));
   MemoryNeeded memory{
       config.grid.size() * (of_value + sizeof(PlannedEntry) + fits * sizeof(FittedEntry)), 0};
-  if (config.refine.steps == 0)
+  if (config.field.size > 0)
+    memory.refinement = field_fit_memory_bytes(config.field, config.refine.sampling);
+  if (config.refine.steps == 0 || config.field.size > 0)
     return memory;
   memory.refinement =
       refinement_memory_bytes(config.grid, values_behind(needed, context), config.refine);
@@ -125,6 +128,17 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
   return report;
 }
 
+// The losses of all nodes, after their matrices were made otherwise than by fits of their own.
+void measure_losses(const RunContext& run, Table& table) {
+  std::vector<Eigen::Matrix3d> stored(table.grid.size());
+  for (std::size_t flat = 0; flat < stored.size(); ++flat)
+    stored[flat] = table.stored_at(flat);
+  const std::vector<double> losses =
+      node_losses({table.grid, table.storage, std::vector<bool>(stored.size(), true)}, stored, run);
+  std::ranges::transform(losses, table.sw_loss.begin(),
+                         [](double loss) { return static_cast<float>(loss); });
+}
+
 void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
                        const RunContext& run, Table& table) {
   const AlbedoRule rule;
@@ -143,15 +157,31 @@ void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
   }
 }
 
+// A field has no axes to serve: what is asked for stands.
+std::vector<QueryRange> ranges_of_field(const Config& config,
+                                        const std::vector<QueryRange>& asked) {
+  return asked.empty() ? std::vector{config.refine.range} : asked;
+}
+
+void describe(const Config& config, Table& table) {
+  table.seed = config.fit.seed;
+  table.config = to_toml(config);
+  table.generator = generator();
+}
+
 }  // namespace
 
 Cost cost_of(const Config& config, const std::vector<bool>& needed, const RefineContext& context) {
   const MemoryNeeded memory = memory_needed(config, needed, context);
   Cost cost;
+  cost.memory_bytes = memory.table + memory.refinement;
+  if (config.field.size > 0) {
+    cost.queries = static_cast<std::size_t>(config.field.queries);
+    return cost;
+  }
   const bool whole = std::find(needed.begin(), needed.end(), false) == needed.end();
   cost.fits = whole ? EqualLobes(config.grid).count()
                     : representative_count(plan_by_symmetry(config.grid, needed));
-  cost.memory_bytes = memory.table + memory.refinement;
   if (config.refine.steps > 0)
     cost.queries = refined_query_count(config.grid, values_behind(needed, context), config.refine);
   return cost;
@@ -193,10 +223,21 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     lap = now;
   };
 
+  if (config.field.size > 0) {
+    result.field.emplace();
+    const Field field =
+        fit_field(config.grid.alpha_min, *config.grid.model, ranges_of_field(config, context.asked),
+                  config.field, config.refine, run, &*result.field);
+    finish_stage("field");
+    Table table = table_of_field(field, config.grid, config.storage, run);
+    measure_losses(run, table);
+    describe(config, table);
+    finish_stage("nodes");
+    return table;
+  }
+
   Table table = Table::empty(config.grid, config.storage);
-  table.seed = config.fit.seed;
-  table.config = to_toml(config);
-  table.generator = generator();
+  describe(config, table);
 
   const std::vector<PlannedEntry> plan = plan_by_symmetry(config.grid, needed, run);
   result.fits = representative_count(plan);

@@ -11,6 +11,7 @@
 
 #include "config/config.h"
 #include "core/run_context.h"
+#include "refine/field_fit.h"
 #include "refine/refine.h"
 #include "table/table.h"
 
@@ -23,6 +24,7 @@ struct GenerateReport {
   double largest_zeroed = 0;  // largest |entry| that equation (16) set to zero, unit third column
   std::size_t largest_zeroed_entry = 0;  // where
   std::optional<RefineReport> refine;    // where the config asks for it
+  std::optional<FieldReport> field;      // the same
   // What of the config's range was refined on, where the table serves not all of it.
   std::optional<QueryRange> range_served;
 };

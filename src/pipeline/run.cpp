@@ -128,7 +128,7 @@ void write_files(const RunRequest& request, const RunContext& context,
     if (format.is_written(request.config))
       add_table(files, report.table, format, request.folder / output.name,
                 write_options(format, output));
-    else if (format.is_asked(output))
+    else if (format.is_asked(request.config))
       report.left_out.emplace_back(
           format.name, format.why_not(request.config.grid, request.config.storage, output.layout));
   }
@@ -142,8 +142,12 @@ void write_files(const RunRequest& request, const RunContext& context,
 
 // Of those that are not asked for by default, the others being left out with a word.
 void require_formats(const Config& config) {
+  if (config.output.header && config.output.c_header)
+    throw InputError(fmt::format(
+        "output.header and output.c_header both write {}.h; expected one of them to be true",
+        config.output.name));
   for (const Format& format : formats())
-    if (format.is_asked(config.output) && !format.is_asked(OutputSettings{}))
+    if (format.is_asked(config) && !(OutputSettings{}.*format.asked))
       if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);
           !why.empty())
         throw InputError(fmt::format("{}, which [output] asks for, cannot hold this table: it {}",

@@ -45,8 +45,9 @@ double encode_srgb(double linear) {
 }
 
 // Radiance times the exposure before the background, as greys.
-Field as_seen(const Field& radiance, const Field& coverage, double exposure) {
-  Field seen = radiance;
+picture::Field as_seen(const picture::Field& radiance, const picture::Field& coverage,
+                       double exposure) {
+  picture::Field seen = radiance;
   for (std::size_t i = 0; i < seen.values.size(); ++i) {
     const double behind = (1 - static_cast<double>(coverage.values[i])) * background;
     if (!std::isnan(radiance.values[i]))
@@ -63,7 +64,8 @@ double nearly_largest(std::vector<double> magnitudes) {
 }
 
 // The magnitudes of the pixels on the sphere that have a value.
-void add_magnitudes(const Field& field, const Field& coverage, std::vector<double>& magnitudes) {
+void add_magnitudes(const picture::Field& field, const picture::Field& coverage,
+                    std::vector<double>& magnitudes) {
   for (std::size_t i = 0; i < field.values.size(); ++i)
     if (coverage.values[i] > 0 && std::isfinite(field.values[i]))
       magnitudes.push_back(std::abs(field.values[i]));
@@ -156,14 +158,14 @@ class Painter {
     const ColorScale grey{Scale::linear(0, 1), &greys()};
     const ColorScale colors = difference_colors(row.images);
     const double exposure = exposure_of(row.images);
-    const auto radiance = [&](double left, const Field& field) {
+    const auto radiance = [&](double left, const picture::Field& field) {
       canvas_.image(as_seen(field, row.images.coverage, exposure), grey, {left, top, side_, side_});
     };
     Beyond outside;
     radiance(left_of_reference(), row.images.reference);
     for (std::size_t table = 0; table < content_.tables.size(); ++table) {
       radiance(left_of_table(table), row.images.ltc[table]);
-      const Field field = difference(row.images, table);
+      const picture::Field field = difference(row.images, table);
       outside = outside | beyond(colors.scale, field.values);
       const Box box{left_of_table(table) + std::round(side_ + gap * font_), top, side_, side_};
       canvas_.image(field, colors, box);

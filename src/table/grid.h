@@ -74,7 +74,8 @@ struct Grid {
   // All of these, axis by axis: the nodes that share a face with this one.
   std::vector<std::size_t> neighbours(std::size_t flat) const;
 
-  // A node of theta = pi/2, where nothing is seen, stands for the paper's last view, steepest_theta.
+  // A node of theta = pi/2, where nothing is seen, stands for the paper's last view,
+  // steepest_theta.
   Lobe lobe(const NodeIndex& node) const;
   Lobe lobe(std::size_t flat) const { return lobe(node(flat)); }
 

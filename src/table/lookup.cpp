@@ -55,6 +55,11 @@ Interpolation interpolation(const Grid& grid, const Lobe& folded) {
 }
 
 LookUp look_up(const Table& table, const Lobe& lobe) {
+  if (table.field) {
+    const FoldedLobe folded = fold(lobe);
+    const FieldLobe found = lobe_of(*table.field, folded.lobe);
+    return {folded.unfold * found.matrix, found.amplitude, found.fresnel};
+  }
   const FoldedLobe folded = Reduction(table.grid).fold(lobe);
   const Interpolation corners = interpolation(table.grid, folded.lobe);
   Eigen::Matrix3d stored = Eigen::Matrix3d::Zero();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/enum_names.h"
+#include "field/field.h"
 #include "table/grid.h"
 #include "table/precision.h"
 #include "table/storage.h"
@@ -52,6 +53,9 @@ struct Table {
   bool without_albedo = false;              // whether its file lacks amplitudes or Fresnel terms
   bool of_any_scale = false;                // whether its S have no certain scale: of others' files
   std::string read_as;  // what a file was taken for that does not say it, and why; else empty
+
+  // Where there is one, look-ups go to it and not to the nodes, whose values are the field's.
+  std::optional<Field> field;
 
   // One value (nine for `stored`, row-major) an entry, in the grid's C order.
   std::vector<float> stored;     // S, third column of unit length; M itself with Storage::matrix

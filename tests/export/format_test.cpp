@@ -65,7 +65,8 @@ TEST(Format, AnAddedOneIsWrittenReadAndNamed) {
     EXPECT_FALSE(is_whole_table("t.cube"));
     EXPECT_EQ(
         endings_text(),
-        ".h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h, .cs, .mat, .inc, .inl or .cube");
+        "_field.json, .h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h, .cs, .mat, .inc, .inl, "
+        ".glsl, .hlsl, .wgsl, .mjs or .cube");
     test::expect_one_line(test::message_of<InputError>([] { read_table("t.png"); }),
                           {"t.png", ".2.exr", ".cube, .floats"});
     test::expect_one_line(test::message_of<InputError>([&] {
@@ -94,8 +95,10 @@ TEST(Format, ATableOverBothRoughnessesIsNotWrittenAsOneOverAlphaAndLambda) {
 }
 
 TEST(Format, ThoseShippedSayWhatTheyHold) {
-  EXPECT_EQ(endings_text(),
-            ".h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h, .cs, .mat, .inc or .inl");
+  EXPECT_EQ(
+      endings_text(),
+      "_field.json, .h5, .0.exr, .npy, .dds, .ktx2, .bin, .json, .js, .h, .cs, .mat, .inc, .inl, "
+      ".glsl, .hlsl, .wgsl or .mjs");
   EXPECT_EQ(endings_text(keeps_fits), ".h5");
   EXPECT_EQ(find_format("a.h5.txt"), nullptr);
   EXPECT_TRUE(find_format("a.1.exr")->half);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// Fields as functions in shading languages and JavaScript, each a format that is only written.
+#include "core/write_file.h"
+#include "export/field_code.h"
+#include "export/format.h"
+
+namespace ltc {
+
+Format field_function_format(const char* ending, CodeLanguage language) {
+  return {.name = std::string(name_of(language)) + " function",
+          .sets = {{ending}},
+          .asked = &OutputSettings::shaders,
+          .contents = {.albedo = true, .loss = false},
+          .of_fields = true,
+          .ending_of_others = true,
+          .add = [language](platform::FileSet& set, const Table& table, const TableFiles& files,
+                            const WriteOptions&) {
+            add_file(set, files.front(), field_function(*table.field, language));
+          }};
+}
+
+}  // namespace ltc

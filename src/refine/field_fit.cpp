@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "refine/field_fit.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "fit/fit_table.h"
+#include "fit/solver.h"
+#include "refine/field_albedo.h"
+#include "refine/field_system.h"
+#include "refine/field_terms.h"
+#include "table/precision.h"
+#include "table/reduction.h"
+
+namespace ltc {
+namespace {
+
+// The pool has at least so many times the terms that are asked for, and of small fields more.
+constexpr double least_pool = 1.3, largest_pool = 3;
+constexpr std::size_t small_pool = 800;
+
+// Lobes that are fitted one by one, and the degree of the field that starts from them.
+constexpr std::size_t start_lobes = 800, start_degree = 4;
+
+// Steps over the pool, and after terms were taken away but the last time.
+constexpr int pool_steps = 2, between_steps = 1;
+
+// Levenberg's damping as a share of the curvature's diagonal, what it falls by after a step that
+// was taken and rises by after one that was not, and where it starts once terms were taken away.
+constexpr double first_damping = 0.02, damping_fall = 1.0 / 3, damping_rise = 6,
+                 least_damping = 1e-4, later_damping = 0.01;
+constexpr double overshoot = 1.4;
+// Ends when a step gains less than this share of the loss, or so many in a row are not taken.
+constexpr double tolerance = 1e-3;
+constexpr int most_failures = 3;
+
+// Where a loss is asked for, fields are tried that are smaller by this.
+constexpr double size_fall = 0.85;
+constexpr int smaller_steps = 3;
+
+// Of the lobes that are fitted to: amplitude and Fresnel term have no noise, and need
+// fewer, but these over the whole domain.
+constexpr std::size_t most_albedo_lobes = 4000, albedo_edge_lobes = 2500;
+
+constexpr double fitted_shift = 0, held_out_shift = 0.4321, start_shift = 0.2;
+
+// A lobe of the whole domain from four numbers in [0, 1]: perceptual roughness, the square roots of
+// lambda, of the angle left to the horizon and of that left to phi = pi/2.
+Lobe edge_lobe(const std::array<double, 4>& u, double alpha_min, const LobeModel& model) {
+  const double least = std::sqrt(alpha_min);
+  const double roughness = least + (1 - least) * u[0], alpha = roughness * roughness;
+  return {alpha, std::max(u[1] * u[1] * alpha, alpha_min),
+          steepest_theta * (1 - (1 - u[2]) * (1 - u[2])), (1 - u[3] * u[3]) * std::numbers::pi / 2,
+          &model};
+}
+
+// Uniform in those numbers: dense where lobes change fast.
+std::vector<Lobe> edge_lobes(std::size_t count, double alpha_min, const LobeModel& model) {
+  constexpr std::size_t first_point = 1'000'000;
+  std::vector<Lobe> lobes;
+  for (const std::array<double, 4>& u : lattice_points(first_point, count))
+    lobes.push_back(edge_lobe(u, alpha_min, model));
+  return lobes;
+}
+
+// A grid over the whole domain, its ends included: what a fit by random lobes never sees.
+std::vector<Lobe> lobes_of_domain(double alpha_min, const LobeModel& model) {
+  constexpr std::array<int, 4> cells = {6, 5, 6, 6};
+  std::vector<Lobe> lobes;
+  const auto at = [&](int i, std::size_t axis) { return static_cast<double>(i) / cells[axis]; };
+  for (int i = 0; i <= cells[0]; ++i)
+    for (int j = 0; j <= cells[1]; ++j)
+      for (int k = 0; k <= cells[2]; ++k)
+        for (int l = 0; l <= cells[3]; ++l)
+          lobes.push_back(edge_lobe({at(i, 0), at(j, 1), at(k, 2), at(l, 3)}, alpha_min, model));
+  return lobes;
+}
+
+WeightedLobes lobes_to_fit(double alpha_min, const LobeModel& model,
+                           const std::vector<QueryRange>& asked, const FieldSettings& settings) {
+  const auto count = static_cast<std::size_t>(settings.queries);
+  const auto edges =
+      static_cast<std::size_t>(settings.edge_share * static_cast<double>(settings.queries));
+  WeightedLobes lobes;
+  lobes.lobes = edge_lobes(edges, alpha_min, model);
+  const std::vector<Lobe> more = lobes_in_turn(
+      asked, count - edges, [&](const QueryRange& range, std::size_t part, std::size_t) {
+        return lattice_queries(range, 0, part, alpha_min, model);
+      });
+  lobes.lobes.insert(lobes.lobes.end(), more.begin(), more.end());
+  lobes.weights.assign(count, 1 / static_cast<double>(count));
+  return lobes;
+}
+
+// The coefficients of a field of low degree near a part of the lobes, fitted one by one.
+struct Start {
+  std::vector<FieldTerm> terms;
+  Eigen::VectorXd coefficients;
+};
+Start start_of(const WeightedLobes& lobes, double alpha_min, const QuerySampling& sampling,
+               const RunContext& run) {
+  const std::size_t count = std::min(start_lobes, lobes.lobes.size());
+  WeightedLobes some;
+  for (std::size_t i = 0; i < count; ++i)
+    some.lobes.push_back(fold(lobes.lobes[i * lobes.lobes.size() / count]).lobe);
+  some.weights.assign(count, 1 / static_cast<double>(count));
+  FitSettings fit;
+  fit.gauss_newton.samples = 1024;
+  fit.gauss_newton.directions = 16;
+  fit.gauss_newton.target_samples = 2048;
+  fit.gauss_newton.steps = 6;
+  const std::unique_ptr<Solver> solver = make_solver(fit);
+  std::vector<Eigen::Matrix3d> fitted(count);
+  parallel_for_each<FitWorkspacePointer>(
+      "fit", count, run, [] { return make_fit_workspace(); },
+      [&](std::size_t i, FitWorkspacePointer& workspace) {
+        FitRequest request;
+        request.lobe = some.lobes[i];
+        request.seed = entry_seed(fit.seed, i);
+        request.progress = run.progress;
+        fitted[i] = solver->fit(request, *workspace, nullptr).matrix;
+      });
+  FieldSystem system(some, alpha_min, sampling, start_shift);
+  Start start{matrix_pool(start_degree), {}};
+  system.set_terms(start.terms, run);
+  start.coefficients = system.nearest_to(fitted, run);
+  return start;
+}
+
+// Terms and coefficients under way, with the model of the loss at them.
+class Descent {
+ public:
+  Descent(const WeightedLobes& fitted, const WeightedLobes& held_out, double alpha_min,
+          const FieldSettings& settings, const QuerySampling& sampling, const RunContext& run)
+      : settings_(settings),
+        run_(run),
+        system_(fitted, alpha_min, sampling, fitted_shift),
+        judge_(held_out, alpha_min, sampling, held_out_shift) {}
+
+  std::size_t queries() const { return system_.size(); }
+  std::size_t size() const { return terms_.size(); }
+  int steps() const { return steps_; }
+
+  void start(const Start& start, const std::vector<FieldTerm>& pool) {
+    Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(pool.size()));
+    for (std::size_t i = 0; i < start.terms.size(); ++i) {
+      const auto at = std::lower_bound(pool.begin(), pool.end(), start.terms[i]);
+      if (at != pool.end() && *at == start.terms[i])
+        coefficients[at - pool.begin()] = start.coefficients[static_cast<Eigen::Index>(i)];
+    }
+    move_to(pool, coefficients);
+  }
+
+  // Up to `count` steps that are taken; false once one gains next to nothing.
+  bool step(int count) {
+    for (int taken = 0, failed = 0; taken < count;) {
+      const Eigen::VectorXd trial = coefficients_ + overshoot * downhill();
+      const double next = system_.evaluate(stored(trial), run_);
+      ++steps_;
+      if (!(next < objective_)) {
+        damping_ *= damping_rise;
+        if (++failed == most_failures)
+          return false;
+        continue;
+      }
+      const double gain = objective_ - next;
+      accept(trial, next);
+      ++taken;
+      failed = 0;
+      damping_ = std::max(damping_ * damping_fall, least_damping);
+      if (gain < tolerance * objective_)
+        return false;
+    }
+    return true;
+  }
+
+  // Takes away what buys least, and moves to where the model has its minimum over the others.
+  void prune(std::size_t count) {
+    if (count >= size())
+      return;
+    Eigen::MatrixXd curvature = damped(least_damping);
+    const Eigen::VectorXd right = curvature * coefficients_ - equations_.gradient;
+    const std::vector<bool> keep = terms_to_keep(curvature, right, count);
+    std::vector<FieldTerm> terms;
+    std::vector<Eigen::Index> kept;
+    for (std::size_t i = 0; i < keep.size(); ++i)
+      if (keep[i]) {
+        terms.push_back(terms_[i]);
+        kept.push_back(static_cast<Eigen::Index>(i));
+      }
+    const Eigen::MatrixXd of_kept = curvature(kept, kept);
+    move_to(terms, of_kept.llt().solve(Eigen::VectorXd(right(kept))));
+    damping_ = std::max(damping_, later_damping);
+  }
+
+  // The mean relative loss of the look-ups that are not fitted to.
+  double held_out_loss() {
+    judge_.set_terms(terms_, run_);
+    return judge_.evaluate(stored(coefficients_), run_);
+  }
+
+  void store(Field& field) const {
+    const Eigen::VectorXd rounded = stored(coefficients_);
+    field.terms = terms_;
+    field.coefficients.clear();
+    for (const double value : rounded)
+      field.coefficients.push_back(static_cast<float>(value));
+  }
+
+ private:
+  // As the field will have them.
+  Eigen::VectorXd stored(const Eigen::VectorXd& coefficients) const {
+    const Precision precision = settings_.half ? Precision::half : Precision::single;
+    return coefficients.unaryExpr(
+        [=](double value) -> double { return rounded(static_cast<float>(value), precision); });
+  }
+  Eigen::MatrixXd damped(double damping) const {
+    Eigen::MatrixXd curvature = equations_.curvature;
+    const double mean = curvature.diagonal().mean();
+    curvature.diagonal().array() += damping * (curvature.diagonal().array() + 1e-4 * mean);
+    return curvature;
+  }
+  Eigen::VectorXd downhill() const {
+    run_.throw_if_stopped();
+    return -damped(damping_).llt().solve(equations_.gradient);
+  }
+  void accept(const Eigen::VectorXd& coefficients, double objective) {
+    coefficients_ = coefficients;
+    objective_ = objective;
+    system_.adopt();
+    equations_ = system_.equations(run_);
+  }
+  void move_to(const std::vector<FieldTerm>& terms, const Eigen::VectorXd& coefficients) {
+    terms_ = terms;
+    system_.set_terms(terms_, run_);
+    accept(coefficients, system_.evaluate(stored(coefficients), run_));
+  }
+
+  const FieldSettings& settings_;
+  const RunContext run_;
+  FieldSystem system_, judge_;
+  std::vector<FieldTerm> terms_;
+  Eigen::VectorXd coefficients_;
+  FieldSystem::Equations equations_;
+  double objective_ = std::numeric_limits<double>::infinity();
+  double damping_ = first_damping;
+  int steps_ = 0;
+};
+
+std::size_t pool_size(std::size_t size) {
+  const double wanted = static_cast<double>(size);
+  return static_cast<std::size_t>(std::max(
+      least_pool * wanted, std::min(largest_pool * wanted, static_cast<double>(small_pool))));
+}
+
+// Steps until they gain no more, the best iterate kept.
+double finish(Descent& descent, int most_steps, Field& field) {
+  double best = descent.held_out_loss();
+  descent.store(field);
+  for (int i = 0; i < most_steps; ++i) {
+    const bool more = descent.step(1);
+    if (const double loss = descent.held_out_loss(); loss < best) {
+      best = loss;
+      descent.store(field);
+    }
+    if (!more)
+      break;
+  }
+  return best;
+}
+
+// Ever smaller fields for as long as they are good enough.
+double shrink(Descent& descent, double most_loss, double loss, Field& field) {
+  while (descent.size() > 2) {
+    descent.prune(static_cast<std::size_t>(size_fall * static_cast<double>(descent.size())));
+    Field smaller = field;
+    const double next = finish(descent, smaller_steps, smaller);
+    if (!(next <= most_loss))
+      break;
+    field = smaller;
+    loss = next;
+  }
+  return loss;
+}
+
+}  // namespace
+
+Field fit_field(double alpha_min, const LobeModel& model, const std::vector<QueryRange>& asked,
+                const FieldSettings& settings, const RefineSettings& judging, const RunContext& run,
+                FieldReport* report) {
+  FieldReport unread;
+  FieldReport& result = report ? *report : unread;
+  const WeightedLobes lobes = lobes_to_fit(alpha_min, model, asked, settings);
+  const WeightedLobes held_out =
+      queries_held_out(alpha_min, model, asked, judging, lobes.lobes.size());
+  const auto size = static_cast<std::size_t>(settings.size);
+  const std::vector<FieldTerm> pool = matrix_pool_of_size(pool_size(size));
+  result.queries = lobes.lobes.size();
+  result.pool = pool.size();
+  Field field{alpha_min, &model, {}, {}};
+  const Start start = start_of(lobes, alpha_min, judging.sampling, run);
+  {
+    const std::size_t evaluations = static_cast<std::size_t>(settings.steps) + pool_steps + 4;
+    const Stage stage(run, "field",
+                      evaluations * lobes.lobes.size() +
+                          static_cast<std::size_t>(settings.steps) * held_out.lobes.size());
+    Descent descent(lobes, held_out, alpha_min, settings, judging.sampling, run);
+    descent.start(start, pool);
+    descent.step(pool_steps);
+    descent.prune(static_cast<std::size_t>(
+        std::sqrt(static_cast<double>(size) * static_cast<double>(descent.size()))));
+    descent.step(between_steps);
+    descent.prune(size);
+    result.loss = finish(descent, settings.steps, field);
+    if (settings.loss > 0) {
+      if (!(result.loss <= settings.loss))
+        throw CheckFailure(fmt::format(
+            "a field of {} numbers has a mean relative loss of {:.4f} on look-ups held out, above "
+            "field.loss = {}; nothing was written; a larger field.size may do",
+            descent.size(), result.loss, settings.loss));
+      result.loss = shrink(descent, settings.loss, result.loss, field);
+    }
+    result.steps = descent.steps();
+  }
+  const auto folded = [](const std::vector<Lobe>& from) {
+    std::vector<Lobe> to;
+    for (const Lobe& lobe : from)
+      to.push_back(fold(lobe).lobe);
+    return to;
+  };
+  std::vector<Lobe> of_albedo = lobes_of_domain(alpha_min, model);
+  const std::vector<Lobe> edges = edge_lobes(albedo_edge_lobes, alpha_min, model);
+  of_albedo.insert(of_albedo.end(), edges.begin(), edges.end());
+  const std::size_t every = 1 + lobes.lobes.size() / most_albedo_lobes;
+  for (std::size_t i = 0; i < lobes.lobes.size(); i += every)
+    of_albedo.push_back(lobes.lobes[i]);
+  fit_albedo(folded(of_albedo), static_cast<std::size_t>(settings.albedo_size), settings.half, run,
+             field);
+  note_albedo_errors(folded(held_out.lobes), field, run, result);
+  return field;
+}
+
+std::size_t field_fit_memory_bytes(const FieldSettings& settings, const QuerySampling& sampling) {
+  const auto queries = static_cast<std::size_t>(settings.queries);
+  const std::size_t pool =
+      matrix_pool_of_size(pool_size(static_cast<std::size_t>(settings.size))).size();
+  return FieldSystem::memory_bytes(sampling, queries, pool) +
+         queries * static_cast<std::size_t>(2 * settings.albedo_size) * sizeof(double);
+}
+
+}  // namespace ltc

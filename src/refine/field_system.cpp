@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "refine/field_system.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/parallel.h"
+#include "table/reduction.h"
+
+namespace ltc {
+namespace {
+
+// Of the start: what terms that hardly differ on the queries are held by; residuals below so many
+// times the loss count as zero; and how often what is far off is weighed anew.
+constexpr double start_damping = 1e-4, start_smoothing = 10;
+constexpr int start_rounds = 4;
+
+}  // namespace
+
+FieldSystem::FieldSystem(const WeightedLobes& asked, double alpha_min,
+                         const QuerySampling& sampling, double shift)
+    : meter_(sampling, shift) {
+  queries_.reserve(asked.lobes.size());
+  for (std::size_t i = 0; i < asked.lobes.size(); ++i) {
+    const FieldVariables at(fold(asked.lobes[i]).lobe, alpha_min);
+    const FieldDirections directions(at);
+    Query query{at, {}, flattened(directions.constant), asked.weights[i]};
+    // M = Q T diag(alpha, s_y, 1) = Q P diag(alpha_x, alpha_y, 1).
+    const Eigen::Vector3d scale(1, at.width_y / at.lobe.alpha_y, 1);
+    for (std::size_t part = 0; part < parts; ++part)
+      query.directions.col(static_cast<Eigen::Index>(part)) =
+          flattened(directions.left * directions.direction[part] * scale.asDiagonal());
+    queries_.push_back(query);
+  }
+  targets_.resize(size());
+  models_.resize(size());
+  evaluated_.resize(size());
+}
+
+void FieldSystem::set_terms(const std::vector<FieldTerm>& terms, const RunContext& run) {
+  first_.fill(0);
+  std::size_t most_degree = 0;
+  for (const FieldTerm& term : terms) {
+    ++first_[static_cast<std::size_t>(term.part) + 1];
+    for (const std::uint8_t degree : {term.alpha, term.lambda, term.radius, term.angle, term.order})
+      most_degree = std::max<std::size_t>(most_degree, degree);
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  for (std::size_t part = 0; part < parts; ++part)
+    rows_[part].resize(static_cast<Eigen::Index>(size()), first_[part + 1] - first_[part]);
+  parallel_for(size(), run, [&](std::size_t q) {
+    const FieldBasis basis(queries_[q].at, most_degree);
+    for (std::size_t part = 0; part < parts; ++part)
+      for (Eigen::Index i = 0; i < rows_[part].cols(); ++i)
+        rows_[part](static_cast<Eigen::Index>(q), i) =
+            static_cast<float>(basis.value(terms[static_cast<std::size_t>(first_[part] + i)]));
+  });
+}
+
+void FieldSystem::evaluate_query(std::size_t q, const PartVector& values,
+                                 QueryMeter::Buffers& buffers) {
+  const Query& query = queries_[q];
+  Model& model = evaluated_[q];
+  model.loss = models_[q].loss;
+  const LobeFrame frame(query.at.lobe);
+  const double spread = meter_.see(frame, q, targets_[q], buffers), share = query.weight / spread;
+  const Eigen::Matrix3d p = field_frame_matrix(values.data(), query.at);
+  if (!p.allFinite()) {
+    model.loss = std::numeric_limits<double>::infinity();
+    return;
+  }
+  ModelValue value;
+  const double expected = model.loss > 0 ? model.loss / share : spread;
+  meter_.measure(frame, q, p, expected, buffers, value);
+  model.loss = share * value.loss;
+  model.gradient.noalias() = share * (query.directions.transpose() * value.gradient);
+  model.curvature.noalias() =
+      share * (query.directions.transpose() * value.curvature * query.directions);
+}
+
+Eigen::MatrixXf FieldSystem::values_at(const Eigen::VectorXd& coefficients,
+                                       const RunContext& run) const {
+  Eigen::MatrixXf values(parts, static_cast<Eigen::Index>(size()));
+  parallel_for(parts, run, [&](std::size_t part) {
+    const Eigen::VectorXf own =
+        coefficients.segment(first_[part], first_[part + 1] - first_[part]).cast<float>();
+    values.row(static_cast<Eigen::Index>(part)) = (rows_[part] * own).transpose();
+  });
+  return values;
+}
+
+double FieldSystem::evaluate(const Eigen::VectorXd& coefficients, const RunContext& run) {
+  const Eigen::MatrixXf values = values_at(coefficients, run);
+  // The loss at the model in use tells each query's smoothing.
+  parallel_for<QueryMeter::Buffers>(
+      size(), run, [] { return QueryMeter::Buffers(); },
+      [&](std::size_t q, QueryMeter::Buffers& buffers) {
+        evaluate_query(q, values.col(static_cast<Eigen::Index>(q)).cast<double>(), buffers);
+        run.advance();
+      });
+  return std::accumulate(evaluated_.begin(), evaluated_.end(), 0.0,
+                         [](double sum, const Model& model) { return sum + model.loss; });
+}
+
+FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
+                                             const RunContext& run) const {
+  const auto count = static_cast<Eigen::Index>(size());
+  const Eigen::Index n = first_[parts];
+  Equations result{Eigen::MatrixXd(n, n), Eigen::VectorXd(n)};
+  std::vector<std::pair<std::size_t, std::size_t>> blocks;
+  for (std::size_t a = 0; a < parts; ++a)
+    for (std::size_t b = a; b < parts; ++b)
+      blocks.emplace_back(a, b);
+  // One block is one thread's: sums have a fixed order.
+  parallel_for<Eigen::MatrixXf>(
+      blocks.size(), run, [] { return Eigen::MatrixXf(); },
+      [&](std::size_t i, Eigen::MatrixXf& weighted) {
+        const auto [a, b] = blocks[i];
+        const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
+        Eigen::VectorXf curvature(count);
+        Eigen::VectorXd gradient(count);
+        for (Eigen::Index q = 0; q < count; ++q) {
+          const auto at = static_cast<std::size_t>(q);
+          curvature[q] = static_cast<float>(weights[at] * models_[at].curvature(row, column));
+          gradient[q] = weights[at] * models_[at].gradient[row];
+        }
+        weighted.noalias() = curvature.asDiagonal() * rows_[b];
+        const Eigen::MatrixXf block = rows_[a].transpose() * weighted;
+        result.curvature.block(first_[a], first_[b], block.rows(), block.cols()) =
+            block.cast<double>();
+        result.curvature.block(first_[b], first_[a], block.cols(), block.rows()) =
+            block.transpose().cast<double>();
+        if (a == b)
+          result.gradient.segment(first_[a], block.rows()) =
+              rows_[a].transpose().cast<double>() * gradient;
+      });
+  return result;
+}
+
+FieldSystem::Equations FieldSystem::equations(const RunContext& run) const {
+  return assemble(std::vector<double>(size(), 1.0), run);
+}
+
+Eigen::VectorXd FieldSystem::nearest_to(const std::vector<Eigen::Matrix3d>& fitted,
+                                        const RunContext& run) {
+  // The cost of values f beside the fit's is cost + gradient . f + f . curvature f / 2.
+  std::vector<double> cost(size()), weights(size(), 1.0);
+  parallel_for<QueryMeter::Buffers>(
+      size(), run, [] { return QueryMeter::Buffers(); },
+      [&](std::size_t q, QueryMeter::Buffers& buffers) {
+        const Query& query = queries_[q];
+        const LobeFrame frame(query.at.lobe);
+        const double share = query.weight / meter_.see(frame, q, targets_[q], buffers);
+        Eigen::Matrix3d p = frame.from_matrix(fitted[q]);
+        p *= query.constant[8] / p(2, 2);
+        ModelValue value;
+        meter_.measure(frame, q, p, start_smoothing * buffers.quantiles.spread(), buffers, value);
+        meter_.measure(frame, q, p, start_smoothing * value.loss, buffers, value);
+        const Vector9 wanted = (flattened(p) - query.constant);
+        const Vector9 bent = value.curvature * wanted;
+        models_[q].loss = share * value.loss;
+        models_[q].gradient = -share * (query.directions.transpose() * bent);
+        models_[q].curvature =
+            share * (query.directions.transpose() * value.curvature * query.directions);
+        cost[q] = 0.5 * share * wanted.dot(bent);
+      });
+  Eigen::VectorXd coefficients;
+  for (int round = 0; round < start_rounds; ++round) {
+    Equations sums = assemble(weights, run);
+    sums.curvature.diagonal().array() +=
+        start_damping * (sums.curvature.diagonal().array() + sums.curvature.diagonal().mean());
+    coefficients = -sums.curvature.llt().solve(sums.gradient);
+    const Eigen::MatrixXf values = values_at(coefficients, run);
+    for (std::size_t q = 0; q < size(); ++q) {
+      const PartVector f = values.col(static_cast<Eigen::Index>(q)).cast<double>();
+      const double excess =
+          cost[q] + models_[q].gradient.dot(f) + 0.5 * f.dot(models_[q].curvature * f);
+      weights[q] = 1 / std::sqrt(1 + 2 * std::max(0.0, excess) / models_[q].loss);
+    }
+  }
+  return coefficients;
+}
+
+std::size_t FieldSystem::memory_bytes(const QuerySampling& sampling, std::size_t queries,
+                                      std::size_t terms) {
+  return queries * (sizeof(Query) + 2 * sizeof(Model) + QueryMeter::target_bytes(sampling) +
+                    2 * terms * sizeof(float)) +
+         3 * terms * terms * sizeof(double);
+}
+
+}  // namespace ltc

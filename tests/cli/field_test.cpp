@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// Fields through the real program: made, judged, looked up, rendered, converted, baked.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/refused_run.h"
+#include "test_paths.h"
+
+namespace ltc::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+const Arguments make_field = {"generate",
+                              "--config",
+                              LTCFIT_SOURCE_DIR "/config/field.toml",
+                              "-o",
+                              "t",
+                              "--set",
+                              "field.size=64",
+                              "--set",
+                              "field.albedo_size=40",
+                              "--set",
+                              "field.queries=1000",
+                              "--set",
+                              "field.steps=1",
+                              "--set",
+                              "refine.held_out_queries=100"};
+
+TEST(FieldCommands, AFieldGoesWhereTablesGo) {
+  const TemporaryDirectory folder;
+  const ProgramResult made = run_ltcfit(make_field, folder.path());
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.out.find("field    64 numbers for the matrix"), std::string::npos) << made.out;
+  EXPECT_EQ(names_in(folder / "t"),
+            (std::vector<std::string>{"ltc.glsl", "ltc.h", "ltc.h5", "ltc.hlsl", "ltc.mjs",
+                                      "ltc.wgsl", "ltc_field.json"}));
+  folder.write("q.csv", "alpha_x,alpha_y,theta,phi\n0.3,0.1,0.5,0.2\n");
+  const ProgramResult json =
+      run_ltcfit({"lookup", "t/ltc_field.json", "-q", "q.csv"}, folder.path());
+  EXPECT_EQ(json.exit_code, 0) << json.err;
+  EXPECT_EQ(json.out, run_ltcfit({"lookup", "t/ltc.h5", "-q", "q.csv"}, folder.path()).out);
+
+  for (const Arguments& arguments : std::vector<Arguments>{
+           {"fit", "--as-in", "t/ltc_field.json", "--alpha-x", "0.4", "--alpha-y", "0.1", "--theta",
+            "60", "--phi", "30"},
+           {"render", "t/ltc_field.json", "--size", "16", "--samples", "16", "-o", "r"},
+           {"convert", "t/ltc_field.json", "-o", "t.npy"},
+           {"bake", "t/ltc_field.json", "-o", "b.h5", "--set", "table.alpha.nodes=3"},
+           {"bake", "t/ltc.h5", "-o", "b.ktx2", "--half"},
+           {"diff", "t/ltc_field.json", "b.h5", "--queries", "20"}}) {
+    const ProgramResult result = run_ltcfit(arguments, folder.path());
+    EXPECT_EQ(result.exit_code, 0) << arguments[0] << ": " << result.err;
+  }
+  const ProgramResult baked = run_ltcfit({"lookup", "b.h5", "-q", "q.csv"}, folder.path());
+  EXPECT_EQ(baked.exit_code, 0) << baked.err;
+  EXPECT_NE(baked.out, json.out);  // interpolated
+}
+
+TEST(FieldCommands, ValidateKnowsAField) {
+  const TemporaryDirectory folder;
+  ASSERT_EQ(run_ltcfit(make_field, folder.path()).exit_code, 0);
+  const ProgramResult judged =
+      run_ltcfit({"validate", "t/ltc_field.json", "--no-quality", "--set",
+                  "invariants.albedo_error=0.3", "--set", "invariants.neighbour_excess=1e9"},
+                 folder.path());
+  EXPECT_NE(judged.out.find("a field's matrices are not stored"), std::string::npos) << judged.out;
+  EXPECT_NE(judged.out.find("determinant"), std::string::npos);
+  EXPECT_EQ(judged.exit_code, 0) << judged.err;
+}
+
+TEST(FieldCommands, WhatIsNoFieldIsRefused) {
+  const TemporaryDirectory folder;
+  ASSERT_EQ(run_ltcfit(make_field, folder.path()).exit_code, 0);
+  folder.write("bad_field.json", "{\"format\": \"ltc-field\", \"format_version\": 3}");
+  expect_error(run_ltcfit({"validate", "bad_field.json"}, folder.path()), 2,
+               {"bad_field.json", "format_version is 3", "allowed: 1"});
+  expect_error(run_ltcfit({"bake", "t/ltc_field.json", "-o", "t.glsl"}, folder.path()), 2,
+               {"t.glsl", "no suffix of a table"});
+  ASSERT_EQ(run_ltcfit({"bake", "t/ltc_field.json", "-o", "b.h5"}, folder.path()).exit_code, 0);
+  expect_error(run_ltcfit({"bake", "b.h5", "-o", "c.h5"}, folder.path()), 2,
+               {"b.h5", "a table of nodes"});
+  expect_error(run_ltcfit({"lookup", "t/ltc.glsl", "-q", "x"}, folder.path()), 2, {"t/ltc.glsl"});
+  expect_error(run_ltcfit({"generate", "-o", "u", "--set", "output.header=true", "--set",
+                           "output.c_header=true"},
+                          folder.path()),
+               2, {"u/ltc.h", "same file"});
+}
+
+}  // namespace
+}  // namespace ltc::test
