@@ -66,7 +66,8 @@ DiffSettings settings_for(const Arguments& arguments, const Table& a, const Tabl
 DiffReport compare(const Arguments& arguments, NamedTable a, NamedTable b,
                    const DiffSettings& settings, const RunContext& run) {
   std::optional<std::vector<EntryComparison>> entries;
-  if (a.table.grid == b.table.grid)
+  // The nodes of a field are as good as any other lobes.
+  if (a.table.grid == b.table.grid && !a.table.field && !b.table.field)
     entries = compare_tables(a.table, b.table, settings.nodes, run);
   std::vector<QueryComparison> queries = compare_queries(a.table, b.table, settings.use, run);
   return DiffReport(std::move(a), std::move(b), settings, std::move(entries), std::move(queries),

@@ -33,7 +33,9 @@ EntryCommands::EntryCommands(const std::string& file, const Table& table)
     : table_(table), file_(shell_quoted(file)) {
   const std::optional<Config> config = config_of(table);
   // The config of an extended table is followed by that of its older entries.
-  has_config_ = config && config->grid == table.grid && table.config == to_toml(*config);
+  // A field's nodes are no fits.
+  has_config_ = config && config->grid == table.grid && table.config == to_toml(*config) &&
+                config->field.size == 0;
   // What the config asks for is all that files of older versions tell.
   refined_ = table.refined.value_or(config && config->refine.steps > 0);
 }

@@ -59,8 +59,9 @@ RunRequest request_of(const Arguments& arguments, Files& files) {
 // alone tells what it holds.
 SummaryCommands commands_of(const Arguments& arguments, const RunReport& report) {
   SummaryCommands commands;
-  const bool refined = report.generate.refine && report.generate.refine->kept;
-  if (!report.extends) {
+  const bool refined =
+      report.table.field || (report.generate.refine && report.generate.refine->kept);
+  if (!report.extends && !report.table.field) {
     commands.fit = "ltcfit fit" + arguments.config.as_text();
     if (!arguments.scene.empty())
       commands.fit += " --scene " + shell_quoted(arguments.scene);

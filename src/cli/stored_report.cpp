@@ -32,6 +32,8 @@ std::string entry_line(const StoredReport& report, bool refined) {
 
 std::string nodes_text(const StoredReport& report) {
   const StoredLobe& lobe = report.lobe;
+  if (report.table.field)
+    return fmt::format("look-up  of the field's {} numbers\n", report.table.field->terms.size());
   std::string text = fmt::format("look-up  of {} {}, each with its own lobe's loss over spread\n",
                                  lobe.nodes.size(), lobe.nodes.size() == 1 ? "entry" : "entries");
   if (!lobe.within_axes)
@@ -63,7 +65,9 @@ std::string report_text(const StoredReport& report) {
   const bool refined = report.table.refined == true;
   std::string text =
       fmt::format("table    {}, storage {}{}\n", report.file, name_of(report.table.storage),
-                  refined ? ", refined after the fit" : "");
+                  report.table.field ? ", a field"
+                  : refined          ? ", refined after the fit"
+                                     : "");
   text += fmt::format("lobe     {} (degrees)\n", lobe_line(lobe.lobe));
   text += lobe.entry ? entry_line(report, refined) : nodes_text(report);
   text += matrix_text("matrix", lobe.matrix);

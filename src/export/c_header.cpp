@@ -9,6 +9,7 @@
 
 #include "core/write_file.h"
 #include "export/field_code.h"
+#include "export/file.h"
 #include "export/format.h"
 #include "table/reduction.h"
 
@@ -373,11 +374,18 @@ std::string table_look_up(const Table& table) {
   return text;
 }
 
+// What a file says cannot end a comment.
+std::string in_comment(std::string text) {
+  for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;)
+    text.replace(at, 2, "* /");
+  return on_one_line(text);
+}
+
 std::string header_of(const Table& table) {
   const std::size_t count = table.field ? table.field->terms.size() : table.grid.size();
   std::string text = fmt::format(
       fmt::runtime(head), fmt::arg("brdf", table.grid.model->name()),
-      fmt::arg("generator", table.generator.empty() ? "ltcfit" : table.generator),
+      fmt::arg("generator", table.generator.empty() ? "ltcfit" : in_comment(table.generator)),
       fmt::arg("what", table.field ? fmt::format("A field of {} numbers: no table.", count)
                                    : fmt::format("A table of {} nodes, interpolated.", count)));
   text += table.field ? field_look_up(*table.field) : table_look_up(table);

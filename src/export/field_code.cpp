@@ -168,8 +168,12 @@ void write_variables(Writer& writer, const Field& field) {
   const auto n = [&](double value) { return writer.number(static_cast<float>(value)); };
   // Equation (14): the larger roughness along x.
   writer.constant("swapped", "alpha_y > alpha_x");
-  writer.constant("alpha", writer.larger(writer.larger("alpha_x", "alpha_y"), n(field.alpha_min)));
-  writer.constant("beta", writer.larger(writer.smaller("alpha_x", "alpha_y"), n(field.alpha_min)));
+  writer.constant("alpha", field.material ? n((*field.material)[0])
+                                          : writer.larger(writer.larger("alpha_x", "alpha_y"),
+                                                          n(field.alpha_min)));
+  writer.constant("beta", field.material ? n((*field.material)[1])
+                                         : writer.larger(writer.smaller("alpha_x", "alpha_y"),
+                                                         n(field.alpha_min)));
   writer.constant("lambda", "beta / alpha");
   writer.constant("x", writer.chosen("swapped", "vy", "vx"));
   writer.constant("y", writer.chosen("swapped", "vx", "vy"));
@@ -321,13 +325,22 @@ void write_albedo(Writer& writer) {
 // C's compilers warn of values that this field happens not to need.
 std::string unused(const Field& field) {
   const std::size_t most = std::max<std::size_t>(most_degrees(field).order, 2);
-  std::string text = "  (void)b_albedo, (void)c2, (void)d2";
+  std::string text = "  (void)b, (void)b_albedo, (void)c2, (void)d2";
   for (std::size_t m = most - 1; m <= most; ++m)
     text += fmt::format(", (void)g{0}, (void)h{0}", m);
   return text + ";\n";
 }
 
-constexpr std::string_view what =
+// What of the roughnesses a function of one material looks at.
+std::string material_text(const Field& field) {
+  return field.material ? fmt::format(
+                              "\n// Of the material with roughnesses {} and {} alone; which "
+                              "is along x, alpha_x > alpha_y says.",
+                              (*field.material)[0], (*field.material)[1])
+                        : "";
+}
+
+constexpr std::string_view what_it_is =
     "The lobe that anisotropic GGX reflects, as a linearly transformed cosine: the matrix M "
     "(clamped\n"
     "// cosine to lobe, tangent frame, positive determinant), amplitude and Fresnel term. Shading "
@@ -365,6 +378,7 @@ std::size_t field_multiplications(const Field& field) {
 
 std::string field_function(const Field& field, CodeLanguage language) {
   const std::string body = field_statements(field, language);
+  const std::string what = std::string(what_it_is) + material_text(field);
   switch (language) {
     case CodeLanguage::javascript:
       return fmt::format(

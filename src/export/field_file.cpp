@@ -30,6 +30,12 @@ constexpr std::size_t most_bytes = 4 << 20;
 // Of a matrix and of the albedo as config allows them, with room.
 constexpr std::size_t most_terms = 16384;
 
+// What 16 bits hold; fields have no use for more.
+constexpr float most_coefficient = 65504;
+
+// As configs have it.
+constexpr double least_alpha_min = 1e-6;
+
 // How to read the terms, for people; readers go by `basis`.
 Json variables() {
   return {{"alpha", "the larger roughness, alpha_x of the folded lobe, at least alpha_min"},
@@ -74,14 +80,15 @@ class Reader {
     require("basis", field_basis_name);
     Field field;
     field.alpha_min = real("alpha_min");
-    if (!(field.alpha_min > 0 && field.alpha_min <= 1))
-      refuse_file(file_,
-                  fmt::format("alpha_min is {}; allowed: above 0, up to 1", field.alpha_min));
+    if (!(field.alpha_min >= least_alpha_min && field.alpha_min <= 1))
+      refuse_file(file_, fmt::format("alpha_min is {}; allowed: {} to 1", field.alpha_min,
+                                     least_alpha_min));
     try {
       field.model = &lobe_model(text("brdf"));
     } catch (const InputError& error) {
       refuse_file(file_, fmt::format("brdf: {}", error.what()));
     }
+    read_material(field);
     const Json& parts = member(json_, "parts", "the file");
     for (std::size_t part = 0; part < field_part_count; ++part)
       read_part(parts, static_cast<FieldPart>(part), field);
@@ -130,6 +137,23 @@ class Reader {
   }
   std::string optional_text(const std::string& name) const {
     return json_.contains(name) ? text(name) : "";
+  }
+
+  void read_material(Field& field) const {
+    const auto json = json_.find("material");
+    if (json == json_.end())
+      return;
+    const auto is_roughness = [&](const Json& value) {
+      return value.is_number() && value.get<double>() >= field.alpha_min &&
+             value.get<double>() <= 1;
+    };
+    if (!json->is_array() || json->size() != 2 ||
+        !std::all_of(json->begin(), json->end(), is_roughness) || (*json)[0] < (*json)[1])
+      refuse_file(file_,
+                  fmt::format("material is {}; allowed: the larger and the smaller roughness, "
+                              "alpha_min to 1",
+                              short_text(*json)));
+    field.material = json->get<std::array<double, 2>>();
   }
 
   FieldTerm term_of(const Json& json, FieldPart part) const {
@@ -186,8 +210,9 @@ void require_consistent(const Field& field, const fs::path& file) {
       refuse("symmetry does not allow it");
     if (i > 0 && !(field.terms[i - 1] < term))
       refuse("it stands twice, or not in rising order");
-    if (!std::isfinite(field.coefficients[i]))
-      refuse(fmt::format("its coefficient is {}; allowed: finite numbers", field.coefficients[i]));
+    if (!(std::abs(field.coefficients[i]) <= most_coefficient))
+      refuse(fmt::format("its coefficient is {}; allowed: up to {}", field.coefficients[i],
+                         most_coefficient));
   }
 }
 
@@ -198,6 +223,8 @@ std::string encode_field(const Table& table) {
                {"alpha_min", field.alpha_min}, {"generator", table.generator},
                {"created", table.created},     {"seed", table.seed},
                {"config", table.config},       {"variables", variables()}};
+  if (field.material)
+    json["material"] = *field.material;
   for (std::size_t i = 0; i < field_part_count; ++i) {
     const auto part = static_cast<FieldPart>(i);
     json["parts"][std::string(name_of(part))] = json_of(field, part);
@@ -223,6 +250,7 @@ Format field_format() {
           .of_fields = true,
           .read =
               [](const TableFiles& files, const ReadAs&) {
+                require_readable(files.front());
                 return decode_field(read_whole_file(files.front(), "field", most_bytes),
                                     files.front());
               },

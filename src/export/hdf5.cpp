@@ -198,7 +198,8 @@ std::optional<Field> read_field(const Hdf5Input& file, const fs::path& path, con
   const std::vector<std::size_t> shape = file.shape("field/coefficients");
   const std::size_t count = shape.size() == 1 ? shape[0] : 0;
   const auto rows = file.values<std::uint8_t>("field/terms", {count, term_bytes});
-  Field field{grid.alpha_min, grid.model, {}, file.values<float>("field/coefficients", {count})};
+  Field field{
+      grid.alpha_min, grid.model, {}, {}, file.values<float>("field/coefficients", {count})};
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* const row = rows.data() + i * term_bytes;
     if (row[0] >= field_part_count)
@@ -216,6 +217,9 @@ Table read_hdf5(const fs::path& path) {
 }
 
 void add_hdf5(platform::FileSet& set, const Table& table, const fs::path& path) {
+  if (table.field && table.field->material)
+    throw InputError(fmt::format("{}: HDF5 holds fields of all materials, and this is one of one",
+                                 path.string()));
   Hdf5Output file(path.string());
   write_attributes(file, table);
   write_axes(file, table.grid);

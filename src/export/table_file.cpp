@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,8 @@ NamedSet require_set(const std::filesystem::path& path) {
   std::vector<std::string> endings;
   for (const Format& format : formats())
     for (const std::vector<std::string>& set_endings : format.sets)
-      endings.insert(endings.end(), set_endings.begin(), set_endings.end());
+      if (is_read(format))
+        endings.insert(endings.end(), set_endings.begin(), set_endings.end());
   throw InputError(fmt::format("{}: no suffix of a table; allowed: {}", path.string(),
                                fmt::join(endings, ", ")));
 }
@@ -67,6 +70,9 @@ TableFiles files_of_table(const std::filesystem::path& path) {
 TableContents contents_of(const std::filesystem::path& path, const Table& table) {
   TableContents contents = require_set(path).format->contents;
   contents.albedo = contents.albedo && !table.without_albedo;
+  // Of a table that was baked from a field nobody measured any.
+  contents.loss = contents.loss &&
+                  std::ranges::any_of(table.sw_loss, [](float loss) { return !std::isnan(loss); });
   return contents;
 }
 
@@ -76,7 +82,9 @@ bool is_whole_table(const std::filesystem::path& path) {
 }
 
 std::string config_text(const std::filesystem::path& file) {
-  return is_whole_table(file) ? read_table(file).config : read_config(file);
+  const Format* const format = find_format(file);
+  const bool has_config = format && (keeps_fits(*format) || (format->of_fields && format->read));
+  return has_config ? read_table(file).config : read_config(file);
 }
 
 }  // namespace ltc

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace ltc {
@@ -27,6 +28,13 @@ bool is_isotropic(FieldPart part) {
 bool is_odd(FieldPart part) {
   return part == FieldPart::m02 || part == FieldPart::m20 || part == FieldPart::m12 ||
          part == FieldPart::m21;
+}
+
+// As near as single precision has it.
+bool is_of_material(const std::array<double, 2>& material, const FieldVariables& at) {
+  constexpr double tolerance = 1e-6;
+  return std::abs(at.lobe.alpha_x - material[0]) <= tolerance * material[0] &&
+         std::abs(at.lobe.alpha_y - material[1]) <= tolerance * material[1];
 }
 
 // T_0 .. T_n at 2u - 1.
@@ -166,6 +174,10 @@ Eigen::Matrix3d field_frame_matrix(const double* values, const FieldVariables& a
 
 FieldLobe lobe_of(const Field& field, const Lobe& folded) {
   const FieldVariables at(folded, field.alpha_min);
+  if (field.material && !is_of_material(*field.material, at)) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {Eigen::Matrix3d::Constant(none), none, none};
+  }
   const FieldValues values = values_of(field, at);
   const double amplitude = std::clamp(values[index(FieldPart::amplitude)], 0.0, 1.0);
   const double x = std::clamp(values[index(FieldPart::view_cosine)], 0.0, 1.0);

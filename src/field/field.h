@@ -44,6 +44,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "brdf/lobe.h"
@@ -103,6 +104,9 @@ bool is_allowed(const FieldTerm& term);
 struct Field {
   double alpha_min = 1e-4;  // smaller roughnesses are raised to it, as in a table
   const LobeModel* model = &ggx();
+  // The larger and the smaller roughness that it was contracted to (refine/field_fit.h): for others
+  // it has no values. Nothing of a field of all lobes.
+  std::optional<std::array<double, 2>> material = {};
   // In rising order, each once; those that are not there are zero.
   std::vector<FieldTerm> terms;
   std::vector<float> coefficients;
@@ -164,7 +168,8 @@ Eigen::Matrix3d with_least_determinant(Eigen::Matrix3d t);
 using FieldValues = std::array<double, field_part_count>;
 FieldValues values_of(const Field& field, const FieldVariables& at);
 
-// M of the folded lobe, e, and e (1 - x)^5; both of the latter clamped to [0, 1].
+// M of the folded lobe, e, and e (1 - x)^5; both of the latter clamped to [0, 1]. NaN for lobes of
+// other roughnesses than the field's material.
 struct FieldLobe {
   Eigen::Matrix3d matrix;
   double amplitude, fresnel;

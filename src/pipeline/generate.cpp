@@ -131,10 +131,12 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
 // The losses of all nodes, after their matrices were made otherwise than by fits of their own.
 void measure_losses(const RunContext& run, Table& table) {
   std::vector<Eigen::Matrix3d> stored(table.grid.size());
-  for (std::size_t flat = 0; flat < stored.size(); ++flat)
+  std::vector<bool> present(stored.size());
+  for (std::size_t flat = 0; flat < stored.size(); ++flat) {
     stored[flat] = table.stored_at(flat);
-  const std::vector<double> losses =
-      node_losses({table.grid, table.storage, std::vector<bool>(stored.size(), true)}, stored, run);
+    present[flat] = has_values(table.status[flat]);
+  }
+  const std::vector<double> losses = node_losses({table.grid, table.storage, present}, stored, run);
   std::ranges::transform(losses, table.sw_loss.begin(),
                          [](double loss) { return static_cast<float>(loss); });
 }
@@ -161,6 +163,20 @@ void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
 std::vector<QueryRange> ranges_of_field(const Config& config,
                                         const std::vector<QueryRange>& asked) {
   return asked.empty() ? std::vector{config.refine.range} : asked;
+}
+
+// What no scene asks for has no values.
+void skip_others(const std::vector<bool>& needed, Table& table) {
+  const Table none = Table::empty(table.grid, table.storage);
+  for (std::size_t flat = 0; flat < needed.size(); ++flat) {
+    if (needed[flat])
+      continue;
+    std::copy_n(none.stored.begin(), 9,
+                table.stored.begin() + static_cast<std::ptrdiff_t>(9 * flat));
+    table.amplitude[flat] = none.amplitude[flat];
+    table.fresnel[flat] = none.fresnel[flat];
+    table.status[flat] = none.status[flat];
+  }
 }
 
 void describe(const Config& config, Table& table) {
@@ -230,6 +246,7 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
                   config.field, config.refine, run, &*result.field);
     finish_stage("field");
     Table table = table_of_field(field, config.grid, config.storage, run);
+    skip_others(needed, table);
     measure_losses(run, table);
     describe(config, table);
     finish_stage("nodes");

@@ -48,6 +48,11 @@ Work plan_work(const RunRequest& request) {
   }
   work.to_fit = work.needed;
   if (!request.extend.empty()) {
+    if (config.field.size > 0)
+      throw InputError(
+          fmt::format("{}: a field is made as a whole; nothing extends it (field.size "
+                      "= {}; 0 for a table)",
+                      request.extend.string(), config.field.size));
     if (!is_whole_table(request.extend))
       throw InputError(fmt::format("{}: cannot be extended; expected a table's {}",
                                    request.extend.string(), endings_text(keeps_fits)));
@@ -146,6 +151,14 @@ void require_formats(const Config& config) {
     throw InputError(fmt::format(
         "output.header and output.c_header both write {}.h; expected one of them to be true",
         config.output.name));
+  if (config.field.loss > 0 && config.field.size == 0)
+    throw InputError(fmt::format(
+        "field.loss = {} without a field: field.size is 0; expected the most numbers it may have",
+        config.field.loss));
+  if (config.output.shaders && config.field.size == 0)
+    throw InputError(
+        "output.shaders without a field: field.size is 0; expected the numbers that a "
+        "field may have");
   for (const Format& format : formats())
     if (format.is_asked(config) && !(OutputSettings{}.*format.asked))
       if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);

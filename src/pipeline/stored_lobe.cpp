@@ -68,7 +68,7 @@ StoredLobe stored_query(const Table& table, const Lobe& lobe, const RunContext& 
   StoredLobe stored;
   stored.lobe = lobe;
   stored.within_axes = reduction.covers(lobe);
-  for (std::size_t i = 0; i < taken.nodes.size(); ++i)
+  for (std::size_t i = 0; i < taken.nodes.size() && !table.field; ++i)
     if (taken.weights[i] != 0)
       stored.nodes.push_back({taken.nodes[i], taken.weights[i], 0});
   std::stable_sort(stored.nodes.begin(), stored.nodes.end(),

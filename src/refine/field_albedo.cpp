@@ -14,9 +14,11 @@
 namespace ltc {
 namespace {
 
-constexpr std::size_t pool_degree = 8;
 // The view's cosine is much smoother than the amplitude: its share of the numbers.
 constexpr double cosine_share = 0.22;
+// Of so few numbers, half of them: the amplitude of one material is a simple function too.
+constexpr std::size_t few_numbers = 100;
+constexpr double cosine_share_of_few = 0.5;
 // What terms that hardly differ on the lobes are held by.
 constexpr double damping = 1e-9;
 // How often lobes are weighed anew by their errors: from the least mean square towards a small
@@ -97,8 +99,8 @@ std::vector<Albedo> integrate(const std::vector<Lobe>& lobes, double alpha_min,
 
 }  // namespace
 
-void fit_albedo(const std::vector<Lobe>& lobes, std::size_t count, bool half, const RunContext& run,
-                Field& field) {
+void fit_albedo(const std::vector<Lobe>& lobes, const std::vector<FieldTerm>& pool,
+                std::size_t count, bool half, const RunContext& run, Field& field) {
   std::vector<FieldVariables> at;
   for (const Lobe& lobe : lobes)
     at.emplace_back(lobe, field.alpha_min);
@@ -115,10 +117,11 @@ void fit_albedo(const std::vector<Lobe>& lobes, std::size_t count, bool half, co
     cosine.weight[i] = std::pow(5 * albedo.amplitude * std::pow(root, 4), 2);
   }
   std::vector<FieldTerm> amplitude_pool, cosine_pool;
-  for (const FieldTerm& term : albedo_pool(pool_degree))
+  for (const FieldTerm& term : pool)
     (term.part == FieldPart::amplitude ? amplitude_pool : cosine_pool).push_back(term);
-  const auto of_cosine =
-      std::max<std::size_t>(1, static_cast<std::size_t>(cosine_share * static_cast<double>(count)));
+  const auto of_cosine = std::max<std::size_t>(
+      1, static_cast<std::size_t>((count < few_numbers ? cosine_share_of_few : cosine_share) *
+                                  static_cast<double>(count)));
   // One a thread, of which each part is the whole work.
   Field parts[2];
   const RunContext alone{1, run.progress};

@@ -11,10 +11,10 @@
 
 namespace ltc {
 
-// Adds terms of `amplitude` and `view_cosine`, `count` together, to the field. The lobes are folded.
-// Coefficients are rounded to halves where `half`. Throws Interrupted.
-void fit_albedo(const std::vector<Lobe>& lobes, std::size_t count, bool half, const RunContext& run,
-                Field& field);
+// Adds terms of `amplitude` and `view_cosine` out of a pool, `count` together, to the field. The
+// lobes are folded. Coefficients are rounded to halves where `half`. Throws Interrupted.
+void fit_albedo(const std::vector<Lobe>& lobes, const std::vector<FieldTerm>& pool,
+                std::size_t count, bool half, const RunContext& run, Field& field);
 
 // Mean and largest errors over folded lobes, into the report.
 void note_albedo_errors(const std::vector<Lobe>& lobes, const Field& field, const RunContext& run,

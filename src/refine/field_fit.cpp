@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "core/error.h"
@@ -48,7 +49,13 @@ constexpr int smaller_steps = 3;
 
 // Of the lobes that are fitted to: amplitude and Fresnel term have no noise, and need
 // fewer, but these over the whole domain.
+constexpr std::size_t albedo_degree = 8;
 constexpr std::size_t most_albedo_lobes = 4000, albedo_edge_lobes = 2500;
+
+// Of one material: lobes fitted to, a third of them near the horizon, and held out; steps.
+constexpr std::size_t material_lobes = 1200, material_held_out = 400;
+constexpr int material_steps = 6;
+constexpr double albedo_share = 0.45;
 
 constexpr double fitted_shift = 0, held_out_shift = 0.4321, start_shift = 0.2;
 
@@ -261,6 +268,13 @@ std::size_t pool_size(std::size_t size) {
       least_pool * wanted, std::min(largest_pool * wanted, static_cast<double>(small_pool))));
 }
 
+std::vector<Lobe> folded(const std::vector<Lobe>& from) {
+  std::vector<Lobe> to;
+  for (const Lobe& lobe : from)
+    to.push_back(fold(lobe).lobe);
+  return to;
+}
+
 // Steps until they gain no more, the best iterate kept.
 double finish(Descent& descent, int most_steps, Field& field) {
   double best = descent.held_out_loss();
@@ -275,6 +289,61 @@ double finish(Descent& descent, int most_steps, Field& field) {
       break;
   }
   return best;
+}
+
+// Views of one material, dense near the horizon.
+WeightedLobes lobes_of_material(const Lobe& material, std::size_t count, std::size_t first) {
+  WeightedLobes lobes;
+  for (const std::array<double, 4>& u : lattice_points(first, count)) {
+    Lobe lobe = material;
+    const bool near_horizon = u[3] < 1.0 / 3;
+    lobe.theta_radians =
+        near_horizon ? steepest_theta * (1 - (1 - u[0]) * (1 - u[0])) : std::acos(1 - u[0]);
+    lobe.phi_radians = u[1] * std::numbers::pi / 2;
+    lobes.lobes.push_back(lobe);
+  }
+  lobes.weights.assign(count, 1 / static_cast<double>(count));
+  return lobes;
+}
+
+// The terms that are left where roughnesses are numbers, with their coefficients; of amplitude and
+// Fresnel term without.
+struct Contracted {
+  Start matrix;
+  std::vector<FieldTerm> albedo;
+};
+Contracted contracted_terms(const Field& field, const Lobe& material) {
+  const FieldBasis basis(FieldVariables(material, field.alpha_min));
+  std::map<FieldTerm, double> sums;
+  for (std::size_t i = 0; i < field.terms.size(); ++i) {
+    const FieldTerm& term = field.terms[i];
+    FieldTerm left = term;
+    left.alpha = 0;
+    const bool isotropic = term.part >= FieldPart::amplitude && term.order == 0;
+    left.lambda = term.lambda > 0 && !isotropic ? 1 : 0;
+    // Both of the same view: what is left of the ratio is of the roughnesses. The factor of lambda
+    // = 1 - lambda stays with the term, and may be zero.
+    FieldTerm of_roughness = term, of_left = left;
+    of_roughness.radius = of_roughness.angle = of_left.radius = of_left.angle = 0;
+    of_roughness.part = of_left.part = FieldPart::a;
+    of_roughness.order = of_left.order = 0;
+    const double whole = basis.value(of_roughness), kept = basis.value(of_left);
+    if (kept != 0)
+      sums[left] += static_cast<double>(field.coefficients[i]) * whole / kept;
+  }
+  Contracted result;
+  std::vector<double> coefficients;
+  for (const auto& [term, sum] : sums) {
+    if (term.part >= FieldPart::amplitude) {
+      result.albedo.push_back(term);
+      continue;
+    }
+    result.matrix.terms.push_back(term);
+    coefficients.push_back(sum);
+  }
+  result.matrix.coefficients = Eigen::Map<const Eigen::VectorXd>(
+      coefficients.data(), static_cast<Eigen::Index>(coefficients.size()));
+  return result;
 }
 
 // Ever smaller fields for as long as they are good enough.
@@ -305,7 +374,7 @@ Field fit_field(double alpha_min, const LobeModel& model, const std::vector<Quer
   const std::vector<FieldTerm> pool = matrix_pool_of_size(pool_size(size));
   result.queries = lobes.lobes.size();
   result.pool = pool.size();
-  Field field{alpha_min, &model, {}, {}};
+  Field field{alpha_min, &model, {}, {}, {}};
   const Start start = start_of(lobes, alpha_min, judging.sampling, run);
   {
     const std::size_t evaluations = static_cast<std::size_t>(settings.steps) + pool_steps + 4;
@@ -330,22 +399,42 @@ Field fit_field(double alpha_min, const LobeModel& model, const std::vector<Quer
     }
     result.steps = descent.steps();
   }
-  const auto folded = [](const std::vector<Lobe>& from) {
-    std::vector<Lobe> to;
-    for (const Lobe& lobe : from)
-      to.push_back(fold(lobe).lobe);
-    return to;
-  };
   std::vector<Lobe> of_albedo = lobes_of_domain(alpha_min, model);
   const std::vector<Lobe> edges = edge_lobes(albedo_edge_lobes, alpha_min, model);
   of_albedo.insert(of_albedo.end(), edges.begin(), edges.end());
   const std::size_t every = 1 + lobes.lobes.size() / most_albedo_lobes;
   for (std::size_t i = 0; i < lobes.lobes.size(); i += every)
     of_albedo.push_back(lobes.lobes[i]);
-  fit_albedo(folded(of_albedo), static_cast<std::size_t>(settings.albedo_size), settings.half, run,
-             field);
+  fit_albedo(folded(of_albedo), albedo_pool(albedo_degree),
+             static_cast<std::size_t>(settings.albedo_size), settings.half, run, field);
   note_albedo_errors(folded(held_out.lobes), field, run, result);
   return field;
+}
+
+Field contracted_field(const Field& field, double alpha_x, double alpha_y, std::size_t size,
+                       const RunContext& run, FieldReport* report) {
+  FieldReport unread;
+  FieldReport& result = report ? *report : unread;
+  const Lobe material{alpha_x, alpha_y, 0, 0, field.model};
+  const WeightedLobes lobes = lobes_of_material(material, material_lobes, 0);
+  const WeightedLobes held_out = lobes_of_material(material, material_held_out, material_lobes);
+  const auto of_albedo =
+      static_cast<std::size_t>(std::lround(albedo_share * static_cast<double>(size)));
+  const Contracted contracted = contracted_terms(field, material);
+  FieldSettings settings;
+  Descent descent(lobes, held_out, field.alpha_min, settings, QuerySampling{}, run);
+  descent.start(contracted.matrix, contracted.matrix.terms);
+  result.whole_loss = descent.held_out_loss();
+  descent.prune(size - of_albedo);
+  Field small{field.alpha_min, field.model, {}, {}, {}};
+  result.loss = finish(descent, material_steps, small);
+  result.steps = descent.steps();
+  result.queries = lobes.lobes.size();
+  result.pool = contracted.matrix.terms.size();
+  fit_albedo(folded(lobes.lobes), contracted.albedo, of_albedo, settings.half, run, small);
+  note_albedo_errors(folded(held_out.lobes), small, run, result);
+  small.material = {alpha_x, alpha_y};
+  return small;
 }
 
 std::size_t field_fit_memory_bytes(const FieldSettings& settings, const QuerySampling& sampling) {

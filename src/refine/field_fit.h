@@ -24,6 +24,7 @@ struct FieldReport {
   std::size_t queries = 0;  // fitted to
   std::size_t pool = 0;     // terms of the matrix to choose from
   double loss = 0;          // mean relative loss of the held-out queries
+  double whole_loss = 0;    // of a contraction: that of the field it is made from
   int steps = 0;
   double amplitude_error = 0, fresnel_error = 0;            // mean, over the queries
   double amplitude_error_most = 0, fresnel_error_most = 0;  // largest
@@ -36,6 +37,12 @@ struct FieldReport {
 Field fit_field(double alpha_min, const LobeModel& model, const std::vector<QueryRange>& asked,
                 const FieldSettings& settings, const RefineSettings& judging, const RunContext& run,
                 FieldReport* report = nullptr);
+
+// The field contracted to one material, alpha_x >= alpha_y >= its alpha_min: of theta and phi
+// alone, at most `size` numbers, nearly half of them for amplitude and Fresnel term. Terms are
+// chosen, and stepped on, as above. Coefficients are halves. Throws Interrupted.
+Field contracted_field(const Field& field, double alpha_x, double alpha_y, std::size_t size,
+                       const RunContext& run, FieldReport* report = nullptr);
 
 std::size_t field_fit_memory_bytes(const FieldSettings& settings, const QuerySampling& sampling);
 

@@ -19,6 +19,8 @@ Table table_of_field(const Field& field, Grid grid, Storage storage, const RunCo
   parallel_for(grid.size(), run, [&](std::size_t flat) {
     const Lobe lobe = grid.lobe(flat);
     const FieldLobe found = lobe_of(field, lobe);
+    if (!found.matrix.allFinite())
+      return;  // of another material than the field's
     const Eigen::Matrix3d stored = stored_from_matrix(storage, found.matrix, lobe);
     table.set_stored(flat, stored / scale_of(storage, stored));
     table.amplitude[flat] = static_cast<float>(found.amplitude);

@@ -8,7 +8,8 @@
 
 namespace ltc {
 
-// All entries of the grid from the field, of the storage's scale, as `fitted`; losses are NaN. The
+// All entries of the grid from the field, of the storage's scale, as `fitted`; losses are NaN.
+// Of a field of one material, those of other roughnesses are `skipped`. The
 // grid's alpha_min and BRDF are the field's. The result has the field too, so that look-ups are
 // still the field's: without it, `.field.reset()`, it is a table that is interpolated.
 // Throws InputError for storage inverse where the grid is not isotropic.

@@ -3,6 +3,7 @@
 // Fields through the real program: made, judged, looked up, rendered, converted, baked.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "support/refused_run.h"
@@ -54,6 +55,12 @@ TEST(FieldCommands, AFieldGoesWhereTablesGo) {
     const ProgramResult result = run_ltcfit(arguments, folder.path());
     EXPECT_EQ(result.exit_code, 0) << arguments[0] << ": " << result.err;
   }
+  // The same again by the config that it has.
+  const ProgramResult again =
+      run_ltcfit({"generate", "--config", "t/ltc_field.json", "-o", "t2"}, folder.path());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read_file(folder / "t2/ltc.mjs"), read_file(folder / "t/ltc.mjs"));
+
   const ProgramResult baked = run_ltcfit({"lookup", "b.h5", "-q", "q.csv"}, folder.path());
   EXPECT_EQ(baked.exit_code, 0) << baked.err;
   EXPECT_NE(baked.out, json.out);  // interpolated
@@ -71,6 +78,36 @@ TEST(FieldCommands, ValidateKnowsAField) {
   EXPECT_EQ(judged.exit_code, 0) << judged.err;
 }
 
+TEST(FieldCommands, ContractsToOneMaterial) {
+  const TemporaryDirectory folder;
+  ASSERT_EQ(run_ltcfit(make_field, folder.path()).exit_code, 0);
+  for (const std::string file : {"m_field.json", "m.glsl", "m.h"}) {
+    const ProgramResult made = run_ltcfit(
+        {"bake", "t/ltc_field.json", "--material", "0.1,0.4", "-o", file}, folder.path());
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_TRUE(made.err.starts_with("bake: ")) << made.err;
+  }
+  // Both orders of its roughnesses, and no others.
+  folder.write("q.csv",
+               "alpha_x,alpha_y,theta,phi\n0.4,0.1,0.5,0.2\n0.1,0.4,0.5,0.2\n0.4,0.2,0.5,0.2\n");
+  const ProgramResult found = run_ltcfit({"lookup", "m_field.json", "-q", "q.csv"}, folder.path());
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  const std::string text = found.out;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4) << text;
+  EXPECT_GT(text.find("nan"), text.find("0.4,0.2,")) << text;
+  EXPECT_NE(text.find("nan"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(read_file(folder / "m_field.json"));
+  std::size_t numbers = 0;
+  for (const auto& part : json["parts"])
+    numbers += part["coefficients"].size();
+  EXPECT_LE(numbers, 60u);
+  expect_error(run_ltcfit({"bake", "m_field.json", "-o", "x.h5"}, folder.path()), 2,
+               {"m_field.json", "a field of one material"});
+  expect_error(run_ltcfit({"bake", "t/ltc_field.json", "--material", "0.1,0.4", "-o", "x.h5"},
+                          folder.path()),
+               2, {"x.h5", "no suffix of a field"});
+}
+
 TEST(FieldCommands, WhatIsNoFieldIsRefused) {
   const TemporaryDirectory folder;
   ASSERT_EQ(run_ltcfit(make_field, folder.path()).exit_code, 0);
@@ -82,6 +119,13 @@ TEST(FieldCommands, WhatIsNoFieldIsRefused) {
   ASSERT_EQ(run_ltcfit({"bake", "t/ltc_field.json", "-o", "b.h5"}, folder.path()).exit_code, 0);
   expect_error(run_ltcfit({"bake", "b.h5", "-o", "c.h5"}, folder.path()), 2,
                {"b.h5", "a table of nodes"});
+  expect_error(run_ltcfit({"generate", "-o", "u", "--set", "field.loss=0.1"}, folder.path()), 2,
+               {"field.loss = 0.1", "field.size is 0"});
+  expect_error(run_ltcfit({"generate", "-o", "u", "--set", "output.shaders=true"}, folder.path()),
+               2, {"output.shaders", "field.size is 0"});
+  expect_error(run_ltcfit({"generate", "-o", "u", "--set", "field.size=64", "--extend", "b.h5"},
+                          folder.path()),
+               2, {"b.h5", "nothing extends it"});
   expect_error(run_ltcfit({"lookup", "t/ltc.glsl", "-q", "x"}, folder.path()), 2, {"t/ltc.glsl"});
   expect_error(run_ltcfit({"generate", "-o", "u", "--set", "output.header=true", "--set",
                            "output.c_header=true"},

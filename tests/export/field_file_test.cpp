@@ -75,7 +75,13 @@ TEST(FieldFile, RefusesWhatIsNoField) {
   expect_refused(json, "velvet");
   json = good();
   json["alpha_min"] = 0;
-  expect_refused(json, "alpha_min is 0");
+  expect_refused(json, "alpha_min is 0; allowed: 1e-06 to 1");
+  json = good();
+  json["parts"]["A"]["coefficients"][0] = 1e6;
+  expect_refused(json, "its coefficient is 1000000; allowed: up to 65504");
+  json = good();
+  json["material"] = {0.1, 0.4};
+  expect_refused(json, "material is [0.1,0.4]; allowed: the larger and the smaller");
   json = good();
   json["parts"].erase("m12");
   expect_refused(json, "\"parts\" has no \"m12\"");
@@ -101,6 +107,25 @@ TEST(FieldFile, RefusesWhatIsNoField) {
   json["parts"]["A"]["terms"][1] = json["parts"]["A"]["terms"][0];
   expect_refused(json, "stands twice");
   expect_refusal([] { decode_field("{\"format\": \"ltc-field\"", "x.json"); }, {"no JSON object"});
+}
+
+TEST(FieldFile, OfOneMaterialIsReadBackAndGoesIntoNoTable) {
+  Field field = synthetic_field();
+  field.material = {0.4, 0.1};
+  const Table table = table_of_field(field, Grid::paper(3), Storage::matrix);
+  EXPECT_EQ(decode_field(encode_field(table), "x.json").field, field);
+  const test::TemporaryDirectory folder;
+  expect_refusal([&] { write_table(table, folder / "t.h5", {}); }, {"one of one"});
+}
+
+TEST(FieldFile, ACommentCannotBeEnded) {
+  Table table = field_table();
+  table.generator = "*/ int x; /*";
+  const test::TemporaryDirectory folder;
+  platform::FileSet set;
+  add_table(set, table, *set_to_write("t.h", true).format, folder / "t", {});
+  set.commit();
+  EXPECT_NE(test::read_file(folder / "t.h").find("by * / int x; /*."), std::string::npos);
 }
 
 TEST(FieldFile, OfTablesOfNodesThereIsNone) {
