@@ -91,17 +91,7 @@ void bake(const Arguments& arguments, Files& files) {
   table.config = source.config;
   table.created = source.created;
   table.generator = generator();
-  const TextureLayout layout = resolved(arguments.options.layout, table.grid, table.storage);
-  const TableFiles written = output.format->files(output.prefix, layout);
-  for (const std::filesystem::path& file : written)
-    files.write("-o", file);
-  platform::FileSet set;
-  add_table(set, table, *output.format, output.prefix, arguments.options);
-  set.commit();
-  std::string text;
-  for (const std::filesystem::path& file : written)
-    text += fmt::format("wrote {}\n", one_line(file.string()));
-  print(text);
+  write_output(table, output, arguments.options, files);
 }
 
 }  // namespace

@@ -41,15 +41,7 @@ void convert(const Arguments& arguments, Files& files) {
     throw InputError(fmt::format("-o {}: no file of layout {}; expected {} or {}",
                                  one_line(arguments.output), name_of(layout), one_line(plain),
                                  one_line(written.front().string())));
-  for (const std::filesystem::path& file : written)
-    files.write("-o", file);
-  platform::FileSet set;
-  add_table(set, table, *output.format, output.prefix, arguments.options);
-  set.commit();
-  std::string text;
-  for (const std::filesystem::path& file : written)
-    text += fmt::format("wrote {}\n", one_line(file.string()));
-  print(text);
+  write_output(table, output, arguments.options, files);
 }
 
 }  // namespace

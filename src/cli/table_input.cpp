@@ -44,4 +44,19 @@ Table read_input(const std::string& file, const std::optional<ReadAs>& as) {
   return table;
 }
 
+void write_output(const Table& table, const NamedSet& output, const WriteOptions& options,
+                  Files& files) {
+  const TableFiles written =
+      output.format->files(output.prefix, resolved(options.layout, table.grid, table.storage));
+  for (const std::filesystem::path& file : written)
+    files.write("-o", file);
+  platform::FileSet set;
+  add_table(set, table, *output.format, output.prefix, options);
+  set.commit();
+  std::string text;
+  for (const std::filesystem::path& file : written)
+    text += fmt::format("wrote {}\n", one_line(file.string()));
+  print(text);
+}
+
 }  // namespace ltc::cli

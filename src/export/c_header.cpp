@@ -192,10 +192,7 @@ std::string field_look_up(const Field& field) {
 }
 
 std::string number(double value) {
-  std::string text = fmt::format("{}", static_cast<float>(value));
-  if (text.find_first_of(".en") == std::string::npos)
-    text += ".0";
-  return text + "f";
+  return float_literal(static_cast<float>(value), "f");
 }
 
 // Where a value stands on an axis, in nodes.

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
-#include "export/field_file.h"
 
 namespace ltc {
 namespace {
@@ -38,12 +38,11 @@ const Spelling& spelling(CodeLanguage language) {
   return all[static_cast<std::size_t>(language)];
 }
 
-// Writes statements; counts the multiplications in what it is told to write.
+// Writes statements in the words of a language.
 class Writer {
  public:
   explicit Writer(CodeLanguage language) : spelling_(spelling(language)) {}
 
-  // Numbers written as "0.5" and functions as "sqrt(" in the description are spelled here.
   void constant(std::string_view name, const std::string& value) {
     line(spelling_.constant, name, value);
   }
@@ -52,12 +51,7 @@ class Writer {
   }
   void assign(std::string_view name, const std::string& value) { line("", name, value); }
 
-  std::string number(float value) const {
-    std::string text = fmt::format("{}", value);
-    if (text.find_first_of(".e") == std::string::npos)
-      text += ".0";
-    return text + std::string(spelling_.suffix);
-  }
+  std::string number(float value) const { return float_literal(value, spelling_.suffix); }
   std::string root(std::string_view of) const {
     return fmt::format("{}sqrt{}({})", spelling_.library, spelling_.library_suffix, of);
   }
@@ -86,40 +80,35 @@ struct Factor {
   std::size_t degree = 0;  // 0: it is 1
 };
 
-// The product of sums, nested: the terms of each value of the first factor are summed before they
-// are multiplied with it.
-class Nested {
- public:
-  explicit Nested(const Writer& writer) : writer_(writer) {}
-
-  std::string sum(std::vector<std::pair<std::vector<Factor>, float>> terms) {
-    if (terms.front().first.empty()) {
-      return writer_.number(terms.front().second);
-    }
-    std::map<std::size_t, std::vector<std::pair<std::vector<Factor>, float>>> by_degree;
-    const char name = terms.front().first.front().name;
-    for (auto& [factors, coefficient] : terms) {
-      const std::size_t degree = factors.front().degree;
-      factors.erase(factors.begin());
-      by_degree[degree].emplace_back(std::move(factors), coefficient);
-    }
-    std::string text;
-    for (auto& [degree, inner] : by_degree) {
-      const std::string value = sum(inner);
-      const bool bare = value.find(" + ") == std::string::npos;
-      text += text.empty() ? "" : " + ";
-      if (degree == 0) {
-        text += value;
-        continue;
-      }
-      text += fmt::format("{}{} * {}{}{}", name, degree, bare ? "" : "(", value, bare ? "" : ")");
-    }
-    return text;
-  }
-
- private:
-  const Writer& writer_;
+// Of the product of values in `factors`, one of each: a term of a sum.
+struct Product {
+  std::vector<Factor> factors;
+  float coefficient;
 };
+
+// The sum of products, nested: the terms of each value of the first factor are summed before they
+// are multiplied with it.
+std::string nested_sum(const Writer& writer, std::vector<Product> terms) {
+  if (terms.front().factors.empty())
+    return writer.number(terms.front().coefficient);
+  std::map<std::size_t, std::vector<Product>> by_degree;
+  const char name = terms.front().factors.front().name;
+  for (Product& term : terms) {
+    const std::size_t degree = term.factors.front().degree;
+    term.factors.erase(term.factors.begin());
+    by_degree[degree].push_back(std::move(term));
+  }
+  std::string text;
+  for (auto& [degree, inner] : by_degree) {
+    const std::string value = nested_sum(writer, std::move(inner));
+    const bool bare = value.find(" + ") == std::string::npos;
+    text += text.empty() ? "" : " + ";
+    text += degree == 0 ? value
+                        : fmt::format("{}{} * {}{}{}", name, degree, bare ? "" : "(", value,
+                                      bare ? "" : ")");
+  }
+  return text;
+}
 
 bool is_sine(FieldPart part) {
   return part == FieldPart::m01 || part == FieldPart::m10 || part == FieldPart::m12 ||
@@ -226,20 +215,17 @@ void write_parts(Writer& writer, const Field& field) {
     const auto part = static_cast<FieldPart>(i);
     const bool of_albedo = part >= FieldPart::amplitude;
     // By order and degree in lambda a statement each, so that none is too long for a compiler.
-    std::map<std::pair<std::size_t, std::size_t>,
-             std::vector<std::pair<std::vector<Factor>, float>>>
-        groups;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Product>> groups;
     for (std::size_t t = 0; t < field.terms.size(); ++t)
       if (const FieldTerm& term = field.terms[t]; term.part == part)
-        groups[{term.order, term.lambda}].emplace_back(
-            std::vector<Factor>{{'a', term.alpha},
-                                {of_albedo ? 'q' : 'r', term.radius},
-                                {of_albedo ? 'z' : 'w', term.angle}},
-            field.coefficients[t]);
+        groups[{term.order, term.lambda}].push_back({{{'a', term.alpha},
+                                                      {of_albedo ? 'q' : 'r', term.radius},
+                                                      {of_albedo ? 'z' : 'w', term.angle}},
+                                                     field.coefficients[t]});
     const std::string name = name_in_code(part);
     writer.variable(name, writer.number(0));
     for (auto& [outer, terms] : groups) {
-      const std::string value = Nested(writer).sum(terms);
+      const std::string value = nested_sum(writer, std::move(terms));
       std::string factor;
       if (outer.first > 0)
         factor += fmt::format("{}{} * ", is_sine(part) ? 'h' : 'g', outer.first);
@@ -348,6 +334,13 @@ constexpr std::string_view what_it_is =
     "// (F0 * amplitude + (1 - F0) * fresnel) * (share of the lobe's light, by the inverse of M).";
 
 }  // namespace
+
+std::string float_literal(float value, std::string_view suffix) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos)
+    text += ".0";
+  return text.append(suffix);
+}
 
 std::string field_statements(const Field& field, CodeLanguage language) {
   Writer writer(language);

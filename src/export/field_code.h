@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "core/enum_names.h"
 #include "field/field.h"
@@ -20,6 +21,9 @@ constexpr EnumNames<CodeLanguage, 5> enum_names(CodeLanguage) {
             {CodeLanguage::hlsl, "HLSL"},
             {CodeLanguage::wgsl, "WGSL"}}}};
 }
+
+// A float as these languages write it: with a point, and `suffix` behind.
+std::string float_literal(float value, std::string_view suffix);
 
 // The statements that make, of `alpha_x`, `alpha_y` and the view (`vx`, `vy`, `vz`), floats that
 // are there already and in any quadrant and order, the matrix m00 ... m22 (clamped cosine to lobe,

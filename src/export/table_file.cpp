@@ -33,7 +33,7 @@ NamedSet require_set(const std::filesystem::path& path) {
 
 Table read_table(const std::filesystem::path& path, const ReadAs& as) {
   const NamedSet set = require_set(path);
-  if (!set.format->read)
+  if (!is_read(*set.format))
     throw InputError(fmt::format("{}: files of {} are only written; allowed: {}", path.string(),
                                  set.format->name, endings_text(is_read)));
   return set.format->read(set.files, as);
@@ -83,7 +83,7 @@ bool is_whole_table(const std::filesystem::path& path) {
 
 std::string config_text(const std::filesystem::path& file) {
   const Format* const format = find_format(file);
-  const bool has_config = format && (keeps_fits(*format) || (format->of_fields && format->read));
+  const bool has_config = format && (keeps_fits(*format) || (format->of_fields && is_read(*format)));
   return has_config ? read_table(file).config : read_config(file);
 }
 

@@ -152,7 +152,6 @@ class Descent {
         system_(fitted, alpha_min, sampling, fitted_shift),
         judge_(held_out, alpha_min, sampling, held_out_shift) {}
 
-  std::size_t queries() const { return system_.size(); }
   std::size_t size() const { return terms_.size(); }
   int steps() const { return steps_; }
 
@@ -209,10 +208,7 @@ class Descent {
   }
 
   // The mean relative loss of the look-ups that are not fitted to.
-  double held_out_loss() {
-    judge_.set_terms(terms_, run_);
-    return judge_.evaluate(stored(coefficients_), run_);
-  }
+  double held_out_loss() { return judge_.evaluate(stored(coefficients_), run_); }
 
   void store(Field& field) const {
     const Eigen::VectorXd rounded = stored(coefficients_);
@@ -248,6 +244,7 @@ class Descent {
   void move_to(const std::vector<FieldTerm>& terms, const Eigen::VectorXd& coefficients) {
     terms_ = terms;
     system_.set_terms(terms_, run_);
+    judge_.set_terms(terms_, run_);
     accept(coefficients, system_.evaluate(stored(coefficients), run_));
   }
 

@@ -163,7 +163,7 @@ Eigen::VectorXd FieldSystem::nearest_to(const std::vector<Eigen::Matrix3d>& fitt
         ModelValue value;
         meter_.measure(frame, q, p, start_smoothing * buffers.quantiles.spread(), buffers, value);
         meter_.measure(frame, q, p, start_smoothing * value.loss, buffers, value);
-        const Vector9 wanted = (flattened(p) - query.constant);
+        const Vector9 wanted = flattened(p) - query.constant;
         const Vector9 bent = value.curvature * wanted;
         models_[q].loss = share * value.loss;
         models_[q].gradient = -share * (query.directions.transpose() * bent);
