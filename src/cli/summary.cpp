@@ -100,8 +100,8 @@ std::string field_text(const RunReport& report) {
     return "";
   const FieldReport& made = *report.generate.field;
   const auto& terms = report.table.field->terms;
-  const auto of_matrix = static_cast<std::size_t>(std::ranges::count_if(
-      terms, [](const FieldTerm& t) { return t.part < FieldPart::amplitude; }));
+  const auto of_matrix = static_cast<std::size_t>(
+      std::ranges::count_if(terms, [](const FieldTerm& t) { return !is_of_albedo(t.part); }));
   return fmt::format(
       "field    {} numbers for the matrix, of {}, and {} for the albedo; {} steps over {} queries\n"
       "         mean relative loss of held-out queries {:.4f}\n"

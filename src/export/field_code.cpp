@@ -110,11 +110,6 @@ std::string nested_sum(const Writer& writer, std::vector<Product> terms) {
   return text;
 }
 
-bool is_sine(FieldPart part) {
-  return part == FieldPart::m01 || part == FieldPart::m10 || part == FieldPart::m12 ||
-         part == FieldPart::m21;
-}
-
 std::string name_in_code(FieldPart part) {
   return "f_" + std::string(name_of(part));
 }
@@ -143,7 +138,7 @@ Degrees most_degrees(const Field& field) {
     value = std::max<std::size_t>(value, degree);
   };
   for (const FieldTerm& term : field.terms) {
-    const bool of_albedo = term.part >= FieldPart::amplitude;
+    const bool of_albedo = is_of_albedo(term.part);
     raise(most.alpha, term.alpha);
     raise(most.lambda, term.lambda);
     raise(of_albedo ? most.albedo_radius : most.radius, term.radius);
@@ -170,7 +165,7 @@ void write_variables(Writer& writer, const Field& field) {
   writer.constant("s", writer.root("s2"));
   writer.constant("cx", writer.chosen("s > " + n(0), "x / s", n(1)));
   writer.constant("cy", writer.chosen("s > " + n(0), "y / s", n(0)));
-  writer.constant("least", n(0.1) + " * alpha");
+  writer.constant("least", n(field_least_width) + " * alpha");
   writer.constant(
       "beta_s",
       "alpha * " + writer.root(fmt::format(
@@ -213,7 +208,7 @@ void write_basis(Writer& writer, const Degrees& most) {
 void write_parts(Writer& writer, const Field& field) {
   for (std::size_t i = 0; i < field_part_count; ++i) {
     const auto part = static_cast<FieldPart>(i);
-    const bool of_albedo = part >= FieldPart::amplitude;
+    const bool of_albedo = is_of_albedo(part);
     // By order and degree in lambda a statement each, so that none is too long for a compiler.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<Product>> groups;
     for (std::size_t t = 0; t < field.terms.size(); ++t)
@@ -250,7 +245,7 @@ void write_matrix(Writer& writer) {
   writer.constant("t20", "h * (x * f_D + f_m20)");
   writer.constant("t21", "h * (y * f_D + f_m21)");
   writer.constant("own", fmt::format("beta * ({} - vz)", n(1)));
-  writer.constant("t22", fmt::format("{} - {} * own * own", n(1), n(0.8)));
+  writer.constant("t22", fmt::format("{} - {} * own * own", n(1), n(field_own_factor)));
   // Where the determinant would be too small.
   writer.constant("p", n(1) + " / t22");
   writer.constant("u00", "t00 - t02 * t20 * p");

@@ -10,12 +10,6 @@
 namespace ltc {
 namespace {
 
-// Of s_y: below alpha_y = 0.1 alpha^2 the second column no longer narrows.
-constexpr double least_width = 0.1;
-
-// Of g.
-constexpr double own_factor = 0.8;
-
 constexpr std::size_t index(FieldPart part) {
   return static_cast<std::size_t>(part);
 }
@@ -35,6 +29,11 @@ bool is_of_material(const std::array<double, 2>& material, const FieldVariables&
   constexpr double tolerance = 1e-6;
   return std::abs(at.lobe.alpha_x - material[0]) <= tolerance * material[0] &&
          std::abs(at.lobe.alpha_y - material[1]) <= tolerance * material[1];
+}
+
+// (cos phi, sin phi, 0), exactly zero where phi is that of an axis; but for a rounding of its z.
+Eigen::Vector3d azimuth_direction(const Lobe& lobe) {
+  return Lobe{1, 1, std::numbers::pi / 2, lobe.phi_radians}.omega_v();
 }
 
 // T_0 .. T_n at 2u - 1.
@@ -60,8 +59,7 @@ bool is_allowed(const FieldTerm& term) {
     return term.lambda > 0 && term.order % 2 == 1;
   if (term.part == FieldPart::m01 || term.part == FieldPart::m10)
     return term.lambda > 0 && term.order % 2 == 0 && term.order > 0;
-  const bool of_albedo = term.part >= FieldPart::amplitude;
-  return term.order % 2 == 0 && (term.lambda > 0 || (of_albedo && term.order == 0));
+  return term.order % 2 == 0 && (term.lambda > 0 || (is_of_albedo(term.part) && term.order == 0));
 }
 
 FieldVariables::FieldVariables(const Lobe& folded, double alpha_min) : lobe(folded) {
@@ -72,7 +70,7 @@ FieldVariables::FieldVariables(const Lobe& folded, double alpha_min) : lobe(fold
   const Eigen::Vector3d v = lobe.omega_v();
   sin_theta = std::sin(lobe.theta_radians);
   cos_theta = v.z();
-  const double least = least_width * alpha;
+  const double least = field_least_width * alpha;
   width_y = alpha * std::sqrt(lambda * lambda + least * least * (1 - lambda * lambda));
   const double length = Eigen::Vector3d(alpha * v.x(), width_y * v.y(), v.z()).norm();
   radius = std::sqrt(length);
@@ -93,9 +91,8 @@ FieldBasis::FieldBasis(const FieldVariables& at, std::size_t n) {
   chebyshev(at.lambda, n, inner);
   for (std::size_t j = 1; j <= n; ++j)
     lambda_[j] = (1 - at.lambda) * inner[j - 1];
-  // By the sum formulas from the view itself, whose sines and cosines are exactly zero where phi
-  // is that of an axis.
-  const Eigen::Vector3d v = Lobe{1, 1, std::numbers::pi / 2, at.lobe.phi_radians}.omega_v();
+  // By the sum formulas, which keep exact zeros.
+  const Eigen::Vector3d v = azimuth_direction(at.lobe);
   cosine_[0] = 1;
   sine_[0] = 0;
   for (std::size_t m = 1; m <= n; ++m) {
@@ -119,13 +116,13 @@ FieldDirections::FieldDirections(const FieldVariables& at) {
   };
   for (Eigen::Matrix3d& matrix : direction)
     matrix.setZero();
-  const Eigen::Vector3d x = Lobe{1, 1, std::numbers::pi / 2, at.lobe.phi_radians}.omega_v();
+  const Eigen::Vector3d x = azimuth_direction(at.lobe);
   const Eigen::Vector3d across(-x.y(), x.x(), 0);
   const double u =
       std::sqrt(at.cos_theta * at.cos_theta + std::hypot(at.alpha * v.x(), at.width_y * v.y()));
   left = Eigen::Matrix3d::Identity() - (1 - u) * across * across.transpose();
   constant.setZero();
-  constant(2, 2) = 1 - own_factor * std::pow(at.lobe.alpha_y * (1 - at.cos_theta), 2);
+  constant(2, 2) = 1 - field_own_factor * std::pow(at.lobe.alpha_y * (1 - at.cos_theta), 2);
   entry(FieldPart::a, 0, 0) = entry(FieldPart::a, 1, 1) = 1;
   entry(FieldPart::b, 0, 0) = cos_2;
   entry(FieldPart::b, 1, 1) = -cos_2;

@@ -88,12 +88,25 @@ constexpr EnumNames<FieldPart, field_part_count> enum_names(FieldPart) {
             {FieldPart::view_cosine, "view_cosine"}}}};
 }
 
+// Whether a part is one of amplitude and Fresnel term, not of the matrix; and whether its orders in
+// phi are sines.
+constexpr bool is_of_albedo(FieldPart part) {
+  return part >= FieldPart::amplitude;
+}
+constexpr bool is_sine(FieldPart part) {
+  return part == FieldPart::m01 || part == FieldPart::m10 || part == FieldPart::m12 ||
+         part == FieldPart::m21;
+}
+
 // A term without its coefficient: i, j, k, l and m above.
 struct FieldTerm {
   FieldPart part = FieldPart::a;
   std::uint8_t alpha = 0, lambda = 0, radius = 0, angle = 0, order = 0;
   auto operator<=>(const FieldTerm&) const = default;
 };
+
+// The 0.1 of s_y and the 0.8 of g.
+inline constexpr double field_least_width = 0.1, field_own_factor = 0.8;
 
 // Degrees and orders are at most this.
 inline constexpr std::size_t field_most_degree = 20;
@@ -132,11 +145,9 @@ class FieldBasis {
   explicit FieldBasis(const FieldVariables& at, std::size_t most_degree = field_most_degree);
 
   double value(const FieldTerm& term) const {
-    const bool sine = term.part == FieldPart::m01 || term.part == FieldPart::m10 ||
-                      term.part == FieldPart::m12 || term.part == FieldPart::m21;
-    const View& view = term.part < FieldPart::amplitude ? matrix_ : albedo_;
+    const View& view = is_of_albedo(term.part) ? albedo_ : matrix_;
     return alpha_[term.alpha] * lambda_[term.lambda] * view.radius[term.radius] *
-           view.angle[term.angle] * (sine ? sine_ : cosine_)[term.order];
+           view.angle[term.angle] * (is_sine(term.part) ? sine_ : cosine_)[term.order];
   }
 
  private:

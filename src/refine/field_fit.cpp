@@ -316,7 +316,7 @@ Contracted contracted_terms(const Field& field, const Lobe& material) {
     const FieldTerm& term = field.terms[i];
     FieldTerm left = term;
     left.alpha = 0;
-    const bool isotropic = term.part >= FieldPart::amplitude && term.order == 0;
+    const bool isotropic = is_of_albedo(term.part) && term.order == 0;
     left.lambda = term.lambda > 0 && !isotropic ? 1 : 0;
     // Both of the same view: what is left of the ratio is of the roughnesses. The factor of lambda
     // = 1 - lambda stays with the term, and may be zero.
@@ -331,7 +331,7 @@ Contracted contracted_terms(const Field& field, const Lobe& material) {
   Contracted result;
   std::vector<double> coefficients;
   for (const auto& [term, sum] : sums) {
-    if (term.part >= FieldPart::amplitude) {
+    if (is_of_albedo(term.part)) {
       result.albedo.push_back(term);
       continue;
     }
