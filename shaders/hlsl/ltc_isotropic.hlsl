@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Made from shaders/glsl/ltc_isotropic.glsl by scripts/translate-shaders; change that.
+// Copyright (c) 2026 the ltcfit authors
+// Look-up in the two 2-D textures of isotropic lobes that engines ship (layout "ltc", docs/files.md):
+// the inverse's four values; amplitude and Fresnel term. Column sqrt(alpha), row sqrt(1 - cos theta).
+// Clamp to edge, linear filter. Needs ltc_lobe.
+
+// `size`: texels along either side, 64. alpha is GGX's, the square of a perceptual roughness.
+LtcLobe ltc_look_up_isotropic(Texture2D<float4> inverses, SamplerState inverses_sampler,
+    Texture2D<float4> terms, SamplerState terms_sampler, float size, float3 view, float alpha) {
+  float away = length(view.xy);
+  float2 unit = float2(1.0, 0.0);
+  if (away > 0.0) {
+    unit = view.xy / away;
+  }
+  // 1 - cos theta keeps its digits where the view is steep.
+  float height = sqrt(max(away * away / (1.0 + view.z), 0.0));
+  float2 place = float2(sqrt(alpha), height) * (1.0 - 1.0 / size) + float2(0.5 / size, 0.5 / size);
+  float4 inverse = inverses.SampleLevel(inverses_sampler, place, 0.0);
+  float4 term = terms.SampleLevel(terms_sampler, place, 0.0);
+  // M is the inverse of what is stored, so they change places.
+  LtcLobe other = ltc_lobe_of_rows(float3(inverse.x, 0.0, inverse.z), float3(0.0, 1.0, 0.0),
+                                   float3(inverse.y, 0.0, inverse.w), term.x, term.y);
+  LtcLobe lobe = other;
+  lobe.m0 = other.w0;
+  lobe.m1 = other.w1;
+  lobe.m2 = other.w2;
+  lobe.w0 = other.m0;
+  lobe.w1 = other.m1;
+  lobe.w2 = other.m2;
+  return ltc_turned(lobe, unit.x, unit.y);
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Made from shaders/glsl/ltc_lobe.glsl by scripts/translate-shaders; change that.
+// Copyright (c) 2026 the ltcfit authors
+// A lobe in a shader: a linearly transformed cosine and how much of the light it reflects.
+//
+// Directions and points are of the tangent frame: z the surface normal, x the direction of alpha_x,
+// points relative to the one that is shaded. Written in the part of GLSL (4.50 and ES 3.00) that
+// scripts/translate-shaders turns into HLSL and WGSL: see shaders/README.md.
+
+static const float LTC_PI = 3.14159265;
+
+// M takes directions of the clamped cosine to those of the lobe; W is its inverse. Both by their rows;
+// their determinants are positive.
+struct LtcLobe {
+  float3 m0;
+  float3 m1;
+  float3 m2;
+  float3 w0;
+  float3 w1;
+  float3 w2;
+  float amplitude;  // integral of BRDF times cosine with F = 1: the albedo of a white mirror
+  float fresnel;    // of its part by Schlick's (1 - v.h)^5
+};
+
+// Of W, of M: a direction to the space of the cosine, and from there to that of the lobe.
+float3 ltc_to_cosine(LtcLobe lobe, float3 p) {
+  return float3(dot(lobe.w0, p), dot(lobe.w1, p), dot(lobe.w2, p));
+}
+float3 ltc_from_cosine(LtcLobe lobe, float3 p) {
+  return float3(dot(lobe.m0, p), dot(lobe.m1, p), dot(lobe.m2, p));
+}
+
+// The lobe of M alone: its inverse is computed. What a field's function gives.
+LtcLobe ltc_lobe_of_rows(float3 m0, float3 m1, float3 m2, float amplitude, float fresnel) {
+  LtcLobe lobe;
+  lobe.m0 = m0;
+  lobe.m1 = m1;
+  lobe.m2 = m2;
+  float3 c0 = float3(m0.x, m1.x, m2.x);
+  float3 c1 = float3(m0.y, m1.y, m2.y);
+  float3 c2 = float3(m0.z, m1.z, m2.z);
+  float3 last = cross(c0, c1);
+  float scale = 1.0 / max(dot(last, c2), 1e-30);
+  lobe.w0 = scale * cross(c1, c2);
+  lobe.w1 = scale * cross(c2, c0);
+  lobe.w2 = scale * last;
+  lobe.amplitude = amplitude;
+  lobe.fresnel = fresnel;
+  return lobe;
+}
+
+// Per steradian, at a unit direction: equation (7) of Aakash et al. 2022. Integrates to 1 over the
+// sphere; the share below the horizon is that of ltc_below_horizon.
+float ltc_density(LtcLobe lobe, float3 omega) {
+  float3 cosine = ltc_to_cosine(lobe, omega);
+  float squared = dot(cosine, cosine);
+  float determinant = dot(lobe.w0, cross(lobe.w1, lobe.w2));
+  return max(cosine.z, 0.0) * determinant / (LTC_PI * squared * squared);
+}
+
+// A unit direction so distributed, from two numbers on [0, 1).
+float3 ltc_direction(LtcLobe lobe, float u1, float u2) {
+  float radius = sqrt(u1);
+  float azimuth = 2.0 * LTC_PI * u2;
+  float3 cosine = float3(radius * cos(azimuth), radius * sin(azimuth), sqrt(max(1.0 - u1, 0.0)));
+  return normalize(ltc_from_cosine(lobe, cosine));
+}
+
+// The share of the lobe below the horizon, exact.
+float ltc_below_horizon(LtcLobe lobe) { return 0.5 - 0.5 * lobe.m2.z / length(lobe.m2); }
+
+// The same lobe turned about the normal by an angle of this cosine and sine.
+LtcLobe ltc_turned(LtcLobe lobe, float c, float s) {
+  LtcLobe turned = lobe;
+  turned.m0 = c * lobe.m0 - s * lobe.m1;
+  turned.m1 = s * lobe.m0 + c * lobe.m1;
+  turned.w0 = float3(c * lobe.w0.x - s * lobe.w0.y, s * lobe.w0.x + c * lobe.w0.y, lobe.w0.z);
+  turned.w1 = float3(c * lobe.w1.x - s * lobe.w1.y, s * lobe.w1.x + c * lobe.w1.y, lobe.w1.z);
+  turned.w2 = float3(c * lobe.w2.x - s * lobe.w2.y, s * lobe.w2.x + c * lobe.w2.y, lobe.w2.z);
+  return turned;
+}
+
+// Shading is this times the share of the lobe's light that comes from the source. F0: the reflectance
+// at normal incidence.
+float3 ltc_reflectance(LtcLobe lobe, float3 f0) {
+  return lobe.fresnel * float3(1.0, 1.0, 1.0) + (lobe.amplitude - lobe.fresnel) * f0;
+}
+
+// What one bounce loses of a rough metal's light, given back: the factor 1 + F0 (1/E - 1), E being
+// the amplitude (Turquin 2019, "Practical multiple scattering compensation for microfacet models").
+float3 ltc_energy_compensation(LtcLobe lobe, float3 f0) {
+  return float3(1.0, 1.0, 1.0) + (1.0 / max(lobe.amplitude, 1e-3) - 1.0) * f0;
+}
+
+// The angle of (x, y) for y >= 0, on [0, pi], within 2e-7: drivers' own are up to 1e-3 off.
+float ltc_angle(float y, float x) {
+  float far = max(abs(x), y);
+  float t = min(abs(x), y) / max(far, 1e-30);
+  float s = t * t;
+  float angle = 0.00290351757;
+  angle = angle * s - 0.0162828695;
+  angle = angle * s + 0.0430391431;
+  angle = angle * s - 0.0753365755;
+  angle = angle * s + 0.106546685;
+  angle = angle * s - 0.142071322;
+  angle = angle * s + 0.199930534;
+  angle = angle * s - 0.333330929;
+  angle = angle * s + 1.0;
+  angle = angle * t;
+  if (abs(x) < y) {
+    angle = 0.5 * LTC_PI - angle;
+  }
+  if (x < 0.0) {
+    angle = LTC_PI - angle;
+  }
+  return angle;
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Made from shaders/glsl/ltc_disk.glsl by scripts/translate-shaders; change that.
+// Copyright (c) 2026 the ltcfit authors
+// The share of a lobe's light that comes from a disk, an ellipse or a sphere: Heitz and Hill 2017,
+// "Real-Time Line- and Disk-Light Shading with Linearly Transformed Cosines". Needs ltc_lobe,
+// ltc_polygon.
+
+// The form factor, a vector, of the ellipse c + a cos t + b sin t seen from the origin; not cut.
+//
+// The cone of its directions is x^T N^-1 x = 0 with N = a a^T + b b^T - c c^T, whose one negative
+// eigenvalue belongs to the cone's axis e. With the eigenvalues mu_0 < 0 < mu_1, mu_2 the squared
+// tangents of the cone's half angles are -mu_i/mu_0, and an ellipse upright on its axis has the form
+// factor tan tan/sqrt((1 + tan^2)(1 + tan^2)) = |det(a b c)|/sqrt(-mu_0 p'(mu_0)), p being the
+// characteristic polynomial. So one eigenvalue is all that is wanted: Laguerre's iteration, which
+// from below all roots climbs to the least, cubed at each step.
+fn ltc_ellipse_form(c: vec3<f32>, a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
+  var ab: vec3<f32> = cross(a, b);
+  var bc: vec3<f32> = cross(b, c);
+  var ca: vec3<f32> = cross(c, a);
+  var determinant: f32 = dot(ab, c);
+  var trace: f32 = dot(a, a) + dot(b, b) - dot(c, c);
+  var minors: f32 = dot(ab, ab) - dot(bc, bc) - dot(ca, ca);
+  // p(mu) = mu^3 - trace mu^2 + minors mu + determinant^2
+  var mu: f32 = -dot(c, c);
+  for (var i: i32 = 0; i < 6; i++) {
+    var value: f32 = ((mu - trace) * mu + minors) * mu + determinant * determinant;
+    var slope: f32 = (3.0 * mu - 2.0 * trace) * mu + minors;
+    var bend: f32 = 6.0 * mu - 2.0 * trace;
+    var root: f32 = sqrt(max(4.0 * slope * slope - 6.0 * value * bend, 0.0));
+    mu = mu - 3.0 * value / max(slope + root, 1e-30);
+  }
+  mu = min(mu, -1e-30);
+  var slope: f32 = max((3.0 * mu - 2.0 * trace) * mu + minors, 1e-30);
+  // adj(N - mu) c = p'(mu) (e.c) e: of the columns' adjugate, e's direction.
+  var n0: vec3<f32> = a.x * a + b.x * b - c.x * c - vec3<f32>(mu, 0.0, 0.0);
+  var n1: vec3<f32> = a.y * a + b.y * b - c.y * c - vec3<f32>(0.0, mu, 0.0);
+  var n2: vec3<f32> = a.z * a + b.z * b - c.z * c - vec3<f32>(0.0, 0.0, mu);
+  var axis: vec3<f32> = c.x * cross(n1, n2) + c.y * cross(n2, n0) + c.z * cross(n0, n1);
+  var form: f32 = abs(determinant) / sqrt(-mu * slope);
+  return min(form, 1.0) * normalize(axis);
+}
+
+// The ellipse center + a cos t + b sin t; a disk where a and b are of one length and upright on each
+// other. Exact where it lies above both horizons. Where one cuts it, a polygon of 32 edges and the
+// same area stands for it.
+fn ltc_ellipse(lobe: LtcLobe, center: vec3<f32>, a: vec3<f32>, b: vec3<f32>) -> f32 {
+  var c: vec3<f32> = ltc_to_cosine(lobe, center);
+  var u: vec3<f32> = ltc_to_cosine(lobe, a);
+  var v: vec3<f32> = ltc_to_cosine(lobe, b);
+  var reach: f32 = sqrt(a.z * a.z + b.z * b.z);
+  var reach_cosine: f32 = sqrt(u.z * u.z + v.z * v.z);
+  if (center.z <= -reach || c.z <= -reach_cosine) {
+    return 0.0;
+  }
+  if (center.z >= reach && c.z >= reach_cosine) {
+    // A common scale, so that no power of it is beyond floats.
+    var scale: f32 = 1.0 / sqrt(dot(c, c) + dot(u, u) + dot(v, v));
+    return clamp(ltc_ellipse_form(scale * c, scale * u, scale * v).z, 0.0, 1.0);
+  }
+  var outline: LtcOutline = ltc_outline_begin();
+  var c_turn: f32 = 1.0;
+  var s_turn: f32 = 0.0;
+  for (var i: i32 = 0; i < 32; i++) {
+    // cos and sin of pi/16; 1.0032274 = sqrt((pi/16) / sin(pi/16)) brings the area to the disk's.
+    outline = ltc_outline_add(outline, lobe,
+                              center + 1.0032274 * (c_turn * a + s_turn * b));
+    var next: f32 = 0.98078528 * c_turn - 0.19509032 * s_turn;
+    s_turn = 0.19509032 * c_turn + 0.98078528 * s_turn;
+    c_turn = next;
+  }
+  return ltc_outline_share(outline, lobe);
+}
+
+// A sphere that does not contain the shaded point: the disk of the same cone of directions.
+fn ltc_sphere(lobe: LtcLobe, center: vec3<f32>, radius: f32) -> f32 {
+  var squared: f32 = dot(center, center);
+  var share: f32 = 1.0 - radius * radius / squared;
+  if (share <= 0.0) {
+    return 1.0;
+  }
+  // Two directions upright on the centre's: Duff et al. 2017, "Building an Orthonormal Basis,
+  // Revisited".
+  var n: vec3<f32> = center / sqrt(squared);
+  var side: f32 = 1.0;
+  if (n.z < 0.0) {
+    side = -1.0;
+  }
+  var p: f32 = -1.0 / (side + n.z);
+  var q: f32 = n.x * n.y * p;
+  var disk: f32 = radius * sqrt(share);
+  var a: vec3<f32> = disk * vec3<f32>(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
+  var b: vec3<f32> = disk * vec3<f32>(q, side + n.y * n.y * p, -n.y);
+  return ltc_ellipse(lobe, share * center, a, b);
+}
