@@ -12,9 +12,10 @@ build_packages=(
   python3-dev python3-numpy pybind11-dev
 )
 # To build the tests; readers, compilers and shells by others, which they check our files and
-# snippets with.
+# snippets with; drivers without a GPU and a browser, which they run shaders on.
 test_packages=(
   libgtest-dev libbenchmark-dev hdf5-tools openexr openscenegraph python3-h5py glslang-tools zsh fish
+  libegl-dev libgles-dev libgl1-mesa-dri libvulkan-dev mesa-vulkan-drivers chromium
 )
 
 say() { echo "== $*" >&2; }

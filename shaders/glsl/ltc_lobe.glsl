@@ -114,3 +114,15 @@ float ltc_angle(float y, float x) {
   }
   return angle;
 }
+
+// The sine of an angle on [-pi/2, pi/2], within 1e-7: drivers' own may be 5e-4 off.
+float ltc_sine(float x) {
+  float s = x * x;
+  float sine = -2.3889779e-08;
+  sine = sine * s + 2.75253046e-06;
+  sine = sine * s - 0.000198408612;
+  sine = sine * s + 0.00833333097;
+  sine = sine * s - 0.166666672;
+  sine = sine * s + 1.0;
+  return sine * x;
+}

@@ -77,7 +77,8 @@ float ltc_position(float value, float size, float first, float last, float warp)
   }
   float x = (value - first) / (last - first);
   if (warp > 2.5) {
-    x = (sin(0.5 * value) - sin(0.5 * first)) / (sin(0.5 * last) - sin(0.5 * first));
+    float below = ltc_sine(0.5 * first);
+    x = (ltc_sine(0.5 * value) - below) / (ltc_sine(0.5 * last) - below);
   }
   x = clamp(x, 0.0, 1.0);
   if (warp > 0.5 && warp < 1.5) {
@@ -135,7 +136,9 @@ vec4 ltc_fetch_exact(sampler3D values, LtcTable table, vec4 at, float volume) {
   vec4 sum = vec4(0.0, 0.0, 0.0, 0.0);
   for (int i = 0; i < 16; ++i) {
     vec4 side = vec4(float(i / 8), float((i / 4) % 2), float((i / 2) % 2), float(i % 2));
-    vec4 weights = mix(vec4(1.0, 1.0, 1.0, 1.0) - part, part, side);
+    // Not mix(), which drivers may round to a hundredth of a small weight.
+    vec4 one = vec4(1.0, 1.0, 1.0, 1.0);
+    vec4 weights = (one - side) * (one - part) + side * part;
     float weight = weights.x * weights.y * weights.z * weights.w;
     if (weight > 0.0) {
       sum = sum + weight * ltc_texel(values, table, lower + side, volume);

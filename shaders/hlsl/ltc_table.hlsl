@@ -78,7 +78,8 @@ float ltc_position(float value, float size, float first, float last, float warp)
   }
   float x = (value - first) / (last - first);
   if (warp > 2.5) {
-    x = (sin(0.5 * value) - sin(0.5 * first)) / (sin(0.5 * last) - sin(0.5 * first));
+    float below = ltc_sine(0.5 * first);
+    x = (ltc_sine(0.5 * value) - below) / (ltc_sine(0.5 * last) - below);
   }
   x = clamp(x, 0.0, 1.0);
   if (warp > 0.5 && warp < 1.5) {
@@ -140,7 +141,9 @@ float4 ltc_fetch_exact(Texture3D<float4> values, LtcTable table, float4 at, floa
   float4 sum = float4(0.0, 0.0, 0.0, 0.0);
   for (int i = 0; i < 16; ++i) {
     float4 side = float4(float(i / 8), float((i / 4) % 2), float((i / 2) % 2), float(i % 2));
-    float4 weights = lerp(float4(1.0, 1.0, 1.0, 1.0) - part, part, side);
+    // Not mix(), which drivers may round to a hundredth of a small weight.
+    float4 one = float4(1.0, 1.0, 1.0, 1.0);
+    float4 weights = (one - side) * (one - part) + side * part;
     float weight = weights.x * weights.y * weights.z * weights.w;
     if (weight > 0.0) {
       sum = sum + weight * ltc_texel(values, table, lower + side, volume);
@@ -227,7 +230,7 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
 // view: unit, in the tangent frame. Roughnesses in either order.
 LtcLobe ltc_look_up(Texture3D<float4> values_0, SamplerState values_0_sampler,
     Texture3D<float4> values_1, SamplerState values_1_sampler, Texture3D<float4> values_2,
-        SamplerState values_2_sampler, LtcTable table, float3 view, float alpha_x, float alpha_y) {
+    SamplerState values_2_sampler, LtcTable table, float3 view, float alpha_x, float alpha_y) {
   LtcFolded folded = ltc_fold(table, view, alpha_x, alpha_y);
   float4 at = ltc_positions(table, folded);
   LtcTexels texels;

@@ -8,7 +8,7 @@
 // `size`: texels along either side, 64. alpha is GGX's, the square of a perceptual roughness.
 fn ltc_look_up_isotropic(inverses: texture_2d<f32>, inverses_sampler: sampler,
     terms: texture_2d<f32>, terms_sampler: sampler, size: f32, view: vec3<f32>,
-        alpha: f32) -> LtcLobe {
+    alpha: f32) -> LtcLobe {
   var away: f32 = length(view.xy);
   var unit: vec2<f32> = vec2<f32>(1.0, 0.0);
   if (away > 0.0) {

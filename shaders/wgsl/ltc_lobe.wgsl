@@ -117,3 +117,15 @@ fn ltc_angle(y: f32, x: f32) -> f32 {
   }
   return angle;
 }
+
+// The sine of an angle on [-pi/2, pi/2], within 1e-7: drivers' own may be 5e-4 off.
+fn ltc_sine(x: f32) -> f32 {
+  var s: f32 = x * x;
+  var sine: f32 = -2.3889779e-08;
+  sine = sine * s + 2.75253046e-06;
+  sine = sine * s - 0.000198408612;
+  sine = sine * s + 0.00833333097;
+  sine = sine * s - 0.166666672;
+  sine = sine * s + 1.0;
+  return sine * x;
+}

@@ -78,7 +78,8 @@ fn ltc_position(value: f32, size: f32, first: f32, last: f32, warp: f32) -> f32 
   }
   var x: f32 = (value - first) / (last - first);
   if (warp > 2.5) {
-    x = (sin(0.5 * value) - sin(0.5 * first)) / (sin(0.5 * last) - sin(0.5 * first));
+    var below: f32 = ltc_sine(0.5 * first);
+    x = (ltc_sine(0.5 * value) - below) / (ltc_sine(0.5 * last) - below);
   }
   x = clamp(x, 0.0, 1.0);
   if (warp > 0.5 && warp < 1.5) {
@@ -142,7 +143,9 @@ fn ltc_fetch_exact(values: texture_3d<f32>, table: LtcTable, at: vec4<f32>,
   var sum: vec4<f32> = vec4<f32>(0.0, 0.0, 0.0, 0.0);
   for (var i: i32 = 0; i < 16; i++) {
     var side: vec4<f32> = vec4<f32>(f32(i / 8), f32((i / 4) % 2), f32((i / 2) % 2), f32(i % 2));
-    var weights: vec4<f32> = mix(vec4<f32>(1.0, 1.0, 1.0, 1.0) - part, part, side);
+    // Not mix(), which drivers may round to a hundredth of a small weight.
+    var one: vec4<f32> = vec4<f32>(1.0, 1.0, 1.0, 1.0);
+    var weights: vec4<f32> = (one - side) * (one - part) + side * part;
     var weight: f32 = weights.x * weights.y * weights.z * weights.w;
     if (weight > 0.0) {
       sum = sum + weight * ltc_texel(values, table, lower + side, volume);
@@ -230,7 +233,7 @@ fn ltc_unfold(table: LtcTable, folded: LtcFolded, texels: LtcTexels) -> LtcLobe 
 // view: unit, in the tangent frame. Roughnesses in either order.
 fn ltc_look_up(values_0: texture_3d<f32>, values_0_sampler: sampler, values_1: texture_3d<f32>,
     values_1_sampler: sampler, values_2: texture_3d<f32>, values_2_sampler: sampler,
-        table: LtcTable, view: vec3<f32>, alpha_x: f32, alpha_y: f32) -> LtcLobe {
+    table: LtcTable, view: vec3<f32>, alpha_x: f32, alpha_y: f32) -> LtcLobe {
   var folded: LtcFolded = ltc_fold(table, view, alpha_x, alpha_y);
   var at: vec4<f32> = ltc_positions(table, folded);
   var texels: LtcTexels;
@@ -254,7 +257,7 @@ fn ltc_look_up_stacked(values: texture_3d<f32>, values_sampler: sampler, table: 
 
 fn ltc_look_up_exact(values_0: texture_3d<f32>, values_1: texture_3d<f32>,
     values_2: texture_3d<f32>, table: LtcTable, view: vec3<f32>, alpha_x: f32,
-        alpha_y: f32) -> LtcLobe {
+    alpha_y: f32) -> LtcLobe {
   var folded: LtcFolded = ltc_fold(table, view, alpha_x, alpha_y);
   var at: vec4<f32> = ltc_positions(table, folded);
   var texels: LtcTexels;

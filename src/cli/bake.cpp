@@ -29,7 +29,7 @@ struct Arguments {
 
 // JSON and functions.
 bool can_hold_material(const Format& format) {
-  return format.of_fields || format.asked == &OutputSettings::header;
+  return format.of_materials;
 }
 
 std::string written_endings() {

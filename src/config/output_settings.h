@@ -67,7 +67,7 @@ struct OutputSettings {
   bool c_header = false;
   bool c_sharp = false;
   bool header = false;   // C header with functions
-  bool shaders = false;  // of fields
+  bool shaders = false;
   bool raw = false;
   bool exr_half = false;  // 16-bit OpenEXR instead of 32-bit
   bool half = true;       // 16-bit values in DDS, KTX2 and raw files

@@ -130,7 +130,7 @@ std::vector<Key> output_keys() {
       key("output.c_header", [](Draft& d) { return &d.config.output.c_header; }, "write the textures as a C header"),
       key("output.c_sharp", [](Draft& d) { return &d.config.output.c_sharp; }, "write the texture as Unity's C#; needs layout = \"unity\""),
       key("output.header", [](Draft& d) { return &d.config.output.header; }, "write a C header that looks up, integrates polygons and samples; in place of c_header"),
-      key("output.shaders", [](Draft& d) { return &d.config.output.shaders; }, "write a field as functions in GLSL, HLSL, WGSL and JavaScript"),
+      key("output.shaders", [](Draft& d) { return &d.config.output.shaders; }, "write what shaders want in GLSL, HLSL and WGSL: a table's constants, a field as functions (also in JavaScript)"),
       key("output.raw", [](Draft& d) { return &d.config.output.raw; }, "write the textures' bytes, with a JSON file beside that describes them"),
       key("output.exr_half", [](Draft& d) { return &d.config.output.exr_half; }, "16-bit OpenEXR instead of 32-bit"),
       key("output.half", [](Draft& d) { return &d.config.output.half; }, "16-bit values in DDS, KTX2 and raw files, else 32-bit"),

@@ -397,6 +397,7 @@ Format header_format() {
           .sets = {{".h"}},
           .asked = &OutputSettings::header,
           .contents = {.albedo = true, .loss = false},
+          .of_materials = true,
           .ending_of_others = true,
           .limits = [](const Grid& grid, Storage, TextureLayout) -> std::string {
             return grid.size() > most_entries

@@ -403,10 +403,10 @@ void ltcLookUp(float alpha_x, float alpha_y, float3 view, out float3x3 M, out fl
     case CodeLanguage::wgsl:
       return fmt::format(
           R"(// {}
-struct LtcLobe {{ matrix: mat3x3<f32>, amplitude: f32, fresnel: f32 }}
-fn ltcLookUp(alpha_x: f32, alpha_y: f32, view: vec3<f32>) -> LtcLobe {{
+struct LtcFieldLobe {{ matrix: mat3x3<f32>, amplitude: f32, fresnel: f32 }}
+fn ltcLookUp(alpha_x: f32, alpha_y: f32, view: vec3<f32>) -> LtcFieldLobe {{
   let vx = view.x; let vy = view.y; let vz = view.z;
-{}  return LtcLobe(mat3x3<f32>(m00, m10, m20, m01, m11, m21, m02, m12, m22), amplitude, fresnel);
+{}  return LtcFieldLobe(mat3x3<f32>(m00, m10, m20, m01, m11, m21, m02, m12, m22), amplitude, fresnel);
 }}
 )",
           what, body);

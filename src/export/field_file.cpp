@@ -248,6 +248,7 @@ Format field_format() {
           .asked = &OutputSettings::field,
           .contents = {.albedo = true, .loss = false},
           .of_fields = true,
+          .of_materials = true,
           .read =
               [](const TableFiles& files, const ReadAs&) {
                 require_readable(files.front());

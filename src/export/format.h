@@ -51,6 +51,7 @@ struct Format {
   // The key that asks for 16-bit values; null: it has none.
   bool OutputSettings::*half = nullptr;
   bool of_fields = false;     // whether it holds fields alone
+  bool of_materials = false;  // whether it holds fields of one material
   bool without_axes = false;  // whether a reader is to be told the layout of the grid
   // Whether others use such names for files of their own, so that none is removed as an older one
   // of the set.

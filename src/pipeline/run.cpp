@@ -155,10 +155,6 @@ void require_formats(const Config& config) {
     throw InputError(fmt::format(
         "field.loss = {} without a field: field.size is 0; expected the most numbers it may have",
         config.field.loss));
-  if (config.output.shaders && config.field.size == 0)
-    throw InputError(
-        "output.shaders without a field: field.size is 0; expected the numbers that a "
-        "field may have");
   for (const Format& format : formats())
     if (format.is_asked(config) && !(OutputSettings{}.*format.asked))
       if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);

@@ -114,15 +114,13 @@ TEST(FieldCommands, WhatIsNoFieldIsRefused) {
   folder.write("bad_field.json", "{\"format\": \"ltc-field\", \"format_version\": 3}");
   expect_error(run_ltcfit({"validate", "bad_field.json"}, folder.path()), 2,
                {"bad_field.json", "format_version is 3", "allowed: 1"});
-  expect_error(run_ltcfit({"bake", "t/ltc_field.json", "-o", "t.glsl"}, folder.path()), 2,
-               {"t.glsl", "no suffix of a table"});
+  expect_error(run_ltcfit({"bake", "t/ltc_field.json", "-o", "t.mjs"}, folder.path()), 2,
+               {"t.mjs", "no suffix of a table"});
   ASSERT_EQ(run_ltcfit({"bake", "t/ltc_field.json", "-o", "b.h5"}, folder.path()).exit_code, 0);
   expect_error(run_ltcfit({"bake", "b.h5", "-o", "c.h5"}, folder.path()), 2,
                {"b.h5", "a table of nodes"});
   expect_error(run_ltcfit({"generate", "-o", "u", "--set", "field.loss=0.1"}, folder.path()), 2,
                {"field.loss = 0.1", "field.size is 0"});
-  expect_error(run_ltcfit({"generate", "-o", "u", "--set", "output.shaders=true"}, folder.path()),
-               2, {"output.shaders", "field.size is 0"});
   expect_error(run_ltcfit({"generate", "-o", "u", "--set", "field.size=64", "--extend", "b.h5"},
                           folder.path()),
                2, {"b.h5", "nothing extends it"});

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "shaders/cases.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/random.h"
+#include "export/field_code.h"
+#include "export/table_code.h"
+#include "export/texture_layout.h"
+#include "field/synthetic_field.h"
+#include "ltc/ltsd.h"
+#include "ltc/polygon.h"
+#include "support/program.h"
+#include "table/field_table.h"
+#include "table/lookup.h"
+#include "table/reduction.h"
+#include "test_paths.h"
+
+namespace ltc::test::shaders {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr std::uint32_t picture_size = 64, picture_levels = 7;
+
+Table without_field(const Grid& grid, Storage storage) {
+  Table table = table_of_field(ltc::testing::synthetic_field(), grid, storage);
+  table.field.reset();
+  return table;
+}
+
+// The axes that engines have.
+Grid engines_grid() {
+  Grid grid;
+  grid.alpha = Axis::make(0, 1, 64, Warp::sqrt);
+  grid.lambda = Axis::make(1, 1, 1, Warp::linear);
+  grid.theta = Axis::make(0, pi / 2, 64, Warp::half_sine);
+  grid.phi = Axis::make(0, 0, 1, Warp::linear);
+  return grid;
+}
+
+Eigen::Vector3d rounded(const Eigen::Vector3d& v) {
+  return v.cast<float>().cast<double>();
+}
+
+// ---- Sources ----
+
+std::string text_of(const std::string& language, const std::string& name) {
+  return read_file(LTCFIT_SOURCE_DIR "/shaders/" + language + "/ltc_" + name + "." + language);
+}
+
+// The files of shaders/ in the order of their needs, with what they need of table and field.
+std::string library(const std::string& language, CodeLanguage code, const Tables& tables) {
+  std::string text = text_of(language, "lobe") + text_of(language, "table") +
+                     table_constant(tables.table.grid, tables.table.storage, code);
+  text += field_function(*tables.field.field, code);
+  for (const char* const name : {"field", "isotropic", "polygon", "disk", "line", "texture"})
+    text += text_of(language, name);
+  return text;
+}
+
+std::string cases_in(const std::string& language) {
+  const std::string file = LTCFIT_SOURCE_DIR "/tests/shaders/cases.glsl";
+  if (language == "glsl")
+    return read_file(file);
+  const ProgramResult result = run_program(
+      {"/usr/bin/python3", LTCFIT_SOURCE_DIR "/scripts/translate-shaders", file, "-l", language});
+  if (result.exit_code != 0)
+    throw std::runtime_error(result.err);
+  return result.out;
+}
+
+// ---- Textures ----
+
+Texture texture_of(const std::string& name, const Image& image, std::uint32_t depth) {
+  return {.name = name,
+          .width = static_cast<std::uint32_t>(image.width),
+          .height = static_cast<std::uint32_t>(image.height),
+          .depth = depth,
+          .values = image.values};
+}
+
+// As docs/files.md has the three volumes: slices of lambda + N_lambda alpha, of phi along theta.
+std::array<Texture, 3> volumes(const Table& table) {
+  const Grid& grid = table.grid;
+  std::array<Texture, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    result[k] = {.name = "values_" + std::to_string(k),
+                 .width = static_cast<std::uint32_t>(grid.phi.size()),
+                 .height = static_cast<std::uint32_t>(grid.theta.size()),
+                 .depth = static_cast<std::uint32_t>(grid.alpha.size() * grid.lambda.size())};
+    for (std::size_t flat = 0; flat < grid.size(); ++flat)
+      for (std::size_t c = 4 * k; c < 4 * k + 4; ++c)
+        result[k].values.push_back(c < 9     ? table.stored[9 * flat + c]
+                                   : c == 9  ? table.amplitude[flat]
+                                   : c == 10 ? table.fresnel[flat]
+                                             : 0.0f);
+  }
+  return result;
+}
+
+// A texel holds where it is, and its level: what is fetched tells place and level. Both are linear
+// in between, so that a trilinear filter adds nothing.
+Texture picture() {
+  Texture texture{
+      .name = "picture", .width = picture_size, .height = picture_size, .levels = picture_levels};
+  for (std::uint32_t level = 0; level < picture_levels; ++level) {
+    const std::uint32_t size = picture_size >> level;
+    for (std::uint32_t y = 0; y < size; ++y)
+      for (std::uint32_t x = 0; x < size; ++x)
+        for (const double value :
+             {(x + 0.5) / size, (y + 0.5) / size, static_cast<double>(level), 1.0})
+          texture.values.push_back(static_cast<float>(value));
+  }
+  return texture;
+}
+
+// ---- What the library has ----
+
+Lobe lobe_of(const Case& asked) {
+  return {asked.alpha_x, asked.alpha_y, std::atan2(asked.view.head<2>().norm(), asked.view.z()),
+          std::atan2(asked.view.y(), asked.view.x())};
+}
+
+// Of a folded query. At phi = 90 degrees the library mirrors x, which shaders do not.
+LookUp of_folded(const Table& table, const Case& folded) {
+  LookUp found = look_up(table, lobe_of(folded));
+  if (found.matrix.determinant() < 0)
+    found.matrix.col(0) *= -1;
+  return found;
+}
+
+// Rows and columns alike: look_up itself leaves the columns.
+Eigen::Matrix3d conjugated(const Table& table, const Case& asked, LookUp& found) {
+  if (is_isotropic(table.grid)) {
+    const double away = asked.view.head<2>().norm();
+    Case straight = asked;
+    straight.view = {away, 0, asked.view.z()};
+    straight.alpha_y = straight.alpha_x;
+    found = look_up(table, lobe_of(straight));
+    const double c = away > 0 ? asked.view.x() / away : 1, s = away > 0 ? asked.view.y() / away : 0;
+    Eigen::Matrix3d turn;
+    turn << c, -s, 0, s, c, 0, 0, 0, 1;
+    return turn * found.matrix;
+  }
+  const bool swapped = asked.alpha_y > asked.alpha_x;
+  Case folded = asked;
+  folded.view = asked.view.cwiseAbs();
+  if (swapped) {
+    std::swap(folded.view.x(), folded.view.y());
+    std::swap(folded.alpha_x, folded.alpha_y);
+  }
+  found = of_folded(table, folded);
+  Eigen::Matrix3d back = Eigen::Matrix3d::Identity();
+  if (swapped)
+    back.col(0).swap(back.col(1));
+  back.row(0) *= asked.view.x() < 0 ? -1 : 1;
+  back.row(1) *= asked.view.y() < 0 ? -1 : 1;
+  return back * found.matrix * back.transpose();
+}
+
+double share_of(const Eigen::Matrix3d& matrix, const std::vector<Eigen::Vector3d>& vertices) {
+  return std::abs(
+      LinearlyTransformed(matrix).integrate_polygon(clip_to_upper_hemisphere(vertices)));
+}
+
+std::vector<Eigen::Vector3d> quad(const Case& asked) {
+  return {asked.p, asked.p + asked.a, asked.p + asked.a + asked.b, asked.p + asked.b};
+}
+
+// A polygon of so many edges and the same area: the share is off by the cube of an edge or less.
+std::vector<Eigen::Vector3d> ellipse(const Eigen::Vector3d& c, const Eigen::Vector3d& a,
+                                     const Eigen::Vector3d& b) {
+  constexpr int edges = 512;
+  const double scale = std::sqrt(2 * pi / edges / std::sin(2 * pi / edges));
+  std::vector<Eigen::Vector3d> vertices;
+  for (int i = 0; i < edges; ++i) {
+    const double t = 2 * pi * i / edges;
+    vertices.push_back(c + scale * (std::cos(t) * a + std::sin(t) * b));
+  }
+  return vertices;
+}
+
+std::vector<Eigen::Vector3d> star(const Case& asked) {
+  std::vector<Eigen::Vector3d> vertices;
+  for (int i = 0; i < 10; ++i) {
+    const double turn = 0.2 * pi * i, radius = i % 2 == 1 ? 0.4 : 1;
+    vertices.push_back(asked.p + radius * (std::cos(turn) * asked.a + std::sin(turn) * asked.b));
+  }
+  return vertices;
+}
+
+// The disk that is seen of a sphere.
+std::vector<Eigen::Vector3d> sphere(const Eigen::Vector3d& center, double radius) {
+  const double share = 1 - radius * radius / center.squaredNorm();
+  const Eigen::Vector3d a = center.unitOrthogonal(), b = center.normalized().cross(a);
+  const double disk = radius * std::sqrt(share);
+  return ellipse(share * center, disk * a, disk * b);
+}
+
+// A strip upright on the plane of line and origin, so thin that its share is as its width.
+double line(const Eigen::Matrix3d& matrix, const Case& asked, double radius) {
+  const Eigen::Vector3d q = asked.p + asked.a, normal = asked.p.cross(q).normalized();
+  // A millionth of the lobe's own width.
+  const double half = 1e-6 * (matrix.transpose() * normal).norm() * asked.p.norm();
+  return share_of(matrix, {asked.p - half * normal, q - half * normal, q + half * normal,
+                           asked.p + half * normal}) *
+         radius / half;
+}
+
+// As docs/shading.md has the approximation by a sphere of the same form factor.
+double as_sphere(const Eigen::Matrix3d& matrix, const Case& asked) {
+  const Eigen::Matrix3d inverse = matrix.inverse();
+  std::vector<Eigen::Vector3d> vertices;
+  Eigen::Vector3d form = Eigen::Vector3d::Zero(), sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& vertex : quad(asked))
+    vertices.push_back((inverse * vertex).normalized());
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector3d normal = vertices[i].cross(vertices[(i + 1) % 4]);
+    if (normal.norm() > 0)
+      form += std::atan2(normal.norm(), vertices[i].dot(vertices[(i + 1) % 4])) / (2 * pi) *
+              normal.normalized();
+    sum += vertices[i];
+  }
+  if (form.dot(sum) < 0)
+    form = -form;
+  // The sphere of that squared sine, by a polygon.
+  const double length = form.norm();
+  if (length == 0)
+    return 0;
+  const Eigen::Vector3d axis = form / length;
+  const double sine = std::sqrt(std::min(length, 1.0)),
+               cosine = std::sqrt(std::max(1 - length, 0.0));
+  const Eigen::Vector3d a = axis.unitOrthogonal(), b = axis.cross(a);
+  return share_of(Eigen::Matrix3d::Identity(), ellipse(cosine * axis, sine * a, sine * b));
+}
+
+double light_of(const Eigen::Matrix3d& matrix, const Case& asked) {
+  constexpr double radius = 0.2f;
+  switch (asked.light) {
+    case LightKind::quad:
+      return share_of(matrix, quad(asked));
+    case LightKind::star:
+      return share_of(matrix, star(asked));
+    case LightKind::ellipse:
+      return share_of(matrix, ellipse(asked.p, asked.a, asked.b));
+    case LightKind::sphere:
+      return share_of(matrix, sphere(asked.p, radius));
+    case LightKind::line:
+      return std::min(line(matrix, asked, radius), 1.0);
+    case LightKind::quad_as_sphere:
+      return as_sphere(matrix, asked);
+    default:
+      return LinearlyTransformed(matrix).density(asked.p.normalized());
+  }
+}
+
+Eigen::Vector3d picture_of(const Eigen::Matrix3d& matrix, const Case& asked) {
+  const Eigen::Matrix3d inverse = matrix.inverse();
+  const Eigen::Vector3d p = inverse * asked.p, u = inverse * asked.a, v = inverse * asked.b;
+  Eigen::Matrix3d sides;
+  sides << u, v, u.cross(v);
+  // The origin as p + place_u u + place_v v + height normal.
+  const Eigen::Vector3d place = sides.fullPivLu().solve(-p);
+  const double area = u.cross(v).norm(), distance = std::abs(place.z()) * area;
+  const double sigma = std::sqrt(distance * distance / (2 * area));
+  const double level =
+      std::clamp(std::log2(std::max(picture_size * sigma, 1.0)), 0.0, picture_levels - 1.0);
+  const auto held = [](double x, double at) {
+    // The last texels' centres, between two levels.
+    const auto side = [&](double k) {
+      const double edge = 0.5 / (picture_size / std::exp2(k));
+      return std::clamp(x, edge, 1 - edge);
+    };
+    const double lower = std::floor(at);
+    return side(lower) + (at - lower) * (side(lower + 1) - side(lower));
+  };
+  return {held(0.125 + 0.75 * place.x(), level), held(0.125 + 0.75 * place.y(), level), level};
+}
+
+}  // namespace
+
+Tables make_tables(const Grid& grid, Storage storage) {
+  return {without_field(grid, storage), without_field(engines_grid(), Storage::inverse),
+          table_of_field(ltc::testing::synthetic_field(), Grid::paper(2), Storage::matrix)};
+}
+
+std::vector<Case> make_cases(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  const auto number = [&](double least, double most) {
+    return static_cast<double>(static_cast<float>(least + (most - least) * random.uniform()));
+  };
+  // Now and then one of the domain's ends.
+  const auto one_of = [&](std::initializer_list<double> ends, double least, double most) {
+    const auto i =
+        static_cast<std::size_t>(random.uniform() * 4 * static_cast<double>(ends.size()));
+    return i < ends.size() ? static_cast<double>(static_cast<float>(ends.begin()[i]))
+                           : number(least, most);
+  };
+  std::vector<Case> cases;
+  for (std::size_t i = 0; i < count; ++i) {
+    Case one;
+    const auto roughness = [&] {
+      const double root = one_of({0, 0.01, 0.03, 1}, 0.1, 1);
+      return static_cast<double>(static_cast<float>(root * root));
+    };
+    one.alpha_x = roughness();
+    one.alpha_y = random.uniform() < 0.2 ? one.alpha_x : roughness();
+    const double theta = one_of({0, 1e-3, 1.2, 1.55, 1.5706}, 0, 1.55);
+    const double phi = one_of({0, pi / 2, pi, 4.71238898, 1e-4}, 0, 2 * pi);
+    one.view = rounded(
+        {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+    one.look_up = static_cast<LookUpKind>(i % look_up_kinds);
+    one.light = static_cast<LightKind>(i / look_up_kinds % light_kinds);
+    if (one.look_up == LookUpKind::isotropic)
+      one.alpha_y = one.alpha_x;
+    // About the mirror's direction, as far as lobes reach, and of any size.
+    const double size = std::exp(number(-2.5, 0.7));
+    const auto any = [&] { return Eigen::Vector3d(number(-1, 1), number(-1, 1), number(-1, 1)); };
+    const Eigen::Vector3d mirror(-one.view.x(), -one.view.y(), one.view.z());
+    const double reach = std::max(one.alpha_x, one.alpha_y) + size;
+    one.p = rounded(2 * (mirror + reach * any()));
+    while (one.p.norm() < 0.5)
+      one.p = rounded(2 * (mirror + reach * any()));
+    const Eigen::Vector3d side = any(), other = any();
+    one.a = rounded(size * side);
+    // Of an ellipse in whatever place, these are its half axes.
+    one.b = rounded(size * (other - other.dot(side) / side.squaredNorm() * side));
+    cases.push_back(one);
+  }
+  return cases;
+}
+
+Job make_job(const Tables& tables, const std::vector<Case>& cases) {
+  Job job;
+  job.glsl = library("glsl", CodeLanguage::glsl, tables) + cases_in("glsl");
+  job.hlsl = library("hlsl", CodeLanguage::hlsl, tables) + cases_in("hlsl");
+  job.wgsl = library("wgsl", CodeLanguage::wgsl, tables) + cases_in("wgsl");
+  for (const Case& one : cases) {
+    const auto add = [&](const Eigen::Vector3d& v, double w) {
+      for (const double value : {v.x(), v.y(), v.z(), w})
+        job.input.push_back(static_cast<float>(value));
+    };
+    add(one.view, one.alpha_x);
+    add(one.p, one.alpha_y);
+    add(one.a, static_cast<double>(one.look_up));
+    add(one.b, static_cast<double>(one.light));
+  }
+  const std::array<Texture, 3> of_table = volumes(tables.table);
+  Texture stacked = of_table[0];
+  stacked.name = "stacked";
+  stacked.depth *= 3;
+  for (std::size_t k = 1; k < 3; ++k)
+    stacked.values.insert(stacked.values.end(), of_table[k].values.begin(),
+                          of_table[k].values.end());
+  const std::vector<Image> images = images_of(tables.isotropic, TextureLayout::ltc);
+  job.textures = {of_table[0],
+                  of_table[1],
+                  of_table[2],
+                  stacked,
+                  texture_of("inverses", images[0], 0),
+                  texture_of("terms", images[1], 0),
+                  picture()};
+  return job;
+}
+
+Expected expected(const Tables& tables, const Case& asked) {
+  const Table& table = asked.look_up == LookUpKind::isotropic ? tables.isotropic
+                       : asked.look_up == LookUpKind::field   ? tables.field
+                                                              : tables.table;
+  LookUp found;
+  Expected result;
+  result.matrix = conjugated(table, asked, found);
+  result.amplitude = found.amplitude;
+  result.fresnel = found.fresnel;
+  result.share = light_of(result.matrix, asked);
+  result.picture = picture_of(result.matrix, asked);
+  return result;
+}
+
+}  // namespace ltc::test::shaders

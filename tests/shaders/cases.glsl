@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// What every driver is asked of shaders/: one look-up and one light of it. Turned into the other
+// languages as those are; shader_jobs.cpp puts versions, bindings and an entry point around it.
+
+// The lobe's M and W by rows; amplitude, Fresnel term, the light's share; what a picture shows.
+struct LtcCase {
+  vec4 r0;
+  vec4 r1;
+  vec4 r2;
+  vec4 r3;
+  vec4 r4;
+  vec4 r5;
+};
+
+LtcLobe ltc_case_lobe(sampler3D values_0, sampler3D values_1, sampler3D values_2,
+                      sampler3D stacked, sampler2D inverses, sampler2D terms, float look,
+                      vec3 view, float alpha_x, float alpha_y) {
+  if (look < 0.5) {
+    return ltc_look_up_exact(values_0, values_1, values_2, LTC_TABLE, view, alpha_x, alpha_y);
+  }
+  if (look < 1.5) {
+    return ltc_look_up_stacked_exact(stacked, LTC_TABLE, view, alpha_x, alpha_y);
+  }
+  if (look < 2.5) {
+    return ltc_look_up(values_0, values_1, values_2, LTC_TABLE, view, alpha_x, alpha_y);
+  }
+  if (look < 3.5) {
+    return ltc_look_up_stacked(stacked, LTC_TABLE, view, alpha_x, alpha_y);
+  }
+  if (look < 4.5) {
+    return ltc_look_up_isotropic(inverses, terms, 64.0, view, alpha_x);
+  }
+  return ltc_look_up_field(view, alpha_x, alpha_y);
+}
+
+// A star about `center`, with points along a and b: not convex.
+float ltc_case_star(LtcLobe lobe, vec3 center, vec3 a, vec3 b) {
+  LtcOutline outline = ltc_outline_begin();
+  for (int i = 0; i < 10; ++i) {
+    float turn = 0.2 * LTC_PI * float(i);
+    float radius = 1.0;
+    if (i % 2 == 1) {
+      radius = 0.4;
+    }
+    outline = ltc_outline_add(outline, lobe, center + radius * (cos(turn) * a + sin(turn) * b));
+  }
+  return ltc_outline_share(outline, lobe);
+}
+
+// p: a corner or centre; a, b: sides, half axes or, of lines, the way to the other end.
+float ltc_case_light(LtcLobe lobe, float light, vec3 p, vec3 a, vec3 b, float radius) {
+  if (light < 0.5) {
+    return ltc_quad(lobe, p, p + a, p + a + b, p + b);
+  }
+  if (light < 1.5) {
+    return ltc_case_star(lobe, p, a, b);
+  }
+  if (light < 2.5) {
+    return ltc_ellipse(lobe, p, a, b);
+  }
+  if (light < 3.5) {
+    return ltc_sphere(lobe, p, radius);
+  }
+  if (light < 4.5) {
+    return ltc_line(lobe, p, p + a, radius);
+  }
+  if (light < 5.5) {
+    return ltc_quad_as_sphere(lobe, p, p + a, p + a + b, p + b);
+  }
+  return ltc_density(lobe, normalize(p));
+}
+
+LtcCase ltc_case(sampler3D values_0, sampler3D values_1, sampler3D values_2, sampler3D stacked,
+                 sampler2D inverses, sampler2D terms, sampler2D picture, vec4 i0, vec4 i1,
+                 vec4 i2, vec4 i3) {
+  LtcLobe lobe = ltc_case_lobe(values_0, values_1, values_2, stacked, inverses, terms, i2.w,
+                               i0.xyz, i0.w, i1.w);
+  float share = ltc_case_light(lobe, floor(i3.w), i1.xyz, i2.xyz, i3.xyz, 0.2);
+  vec3 seen = ltc_picture(picture, 64.0, lobe, i1.xyz, i2.xyz, i3.xyz);
+  LtcCase result;
+  result.r0 = vec4(lobe.m0, lobe.amplitude);
+  result.r1 = vec4(lobe.m1, lobe.fresnel);
+  result.r2 = vec4(lobe.m2, share);
+  result.r3 = vec4(lobe.w0, seen.x);
+  result.r4 = vec4(lobe.w1, seen.y);
+  result.r5 = vec4(lobe.w2, seen.z);
+  return result;
+}
