@@ -46,7 +46,7 @@ std::span<const Command> commands() {
        "measure the run time and error of many settings in one run", declare_bench},
       {"stress", "Compare and validate tables",
        "fit at the extremes from good and bad starts, and count what fails", declare_stress},
-      {"render", "Compare and validate tables", "render spheres with a table and with sampled GGX",
+      {"render", "Compare and validate tables", "render spheres and sheets with a table and with sampled GGX",
        declare_render},
       {"convert", "Use tables", "write a table in another format or layout", declare_convert},
       {"bake", "Use tables", "make a table of any grid from a field", declare_bake},

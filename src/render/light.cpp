@@ -37,7 +37,7 @@ std::optional<Light> strip_of(const Light& line) {
   if (!(distance > radius)) {
     if (std::abs(at) <= half_length)
       throw InputError(fmt::format(
-          "a line light of radius {} at distance {} of a point; it must not touch the object",
+          "a line light of radius {:.4g} at distance {:.4g} of a point; it must not touch the object",
           radius, distance));
     return std::nullopt;
   }
@@ -92,7 +92,7 @@ std::optional<Light> Light::flat() const {
     return *this;
   if (!(center.norm() > half_u.norm()))
     throw InputError(fmt::format(
-        "a sphere light of radius {} at distance {} of a point; it must not touch the object",
+        "a sphere light of radius {:.4g} at distance {:.4g} of a point; it must not touch the object",
         half_u.norm(), center.norm()));
   const Ellipse disk = disk_of_sphere(center, half_u.norm());
   // Towards the origin.
