@@ -200,6 +200,7 @@ LightImage read_exr_image(const fs::path& path) {
   const std::size_t file_bytes = require_readable(path);
   if (const std::string fault = exr_header_fault(path); !fault.empty())
     refuse_file(path, fault);
+  const BoundedExrSize bound(largest_light_image_side);
   try {
     constexpr int no_threads = 0;
     Imf::InputFile file(path.c_str(), no_threads);
