@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "brdf/albedo.h"
@@ -15,6 +17,7 @@
 #include "core/random.h"
 #include "ltc/ltsd.h"
 #include "ltc/polygon.h"
+#include "render/light_texture.h"
 #include "table/lookup.h"
 #include "table/synthetic.h"
 
@@ -112,6 +115,26 @@ TEST(Reference, AllTechniquesHaveOneMeanForLightsOfEveryShape) {
             << name_of(light.shape) << ' ' << both.mean << " +- " << both.standard_error << ' '
             << other.mean << " +- " << other.standard_error;
       }
+    }
+}
+
+// Left half black, right half bright.
+std::shared_ptr<const LightTexture> half_lit() {
+  LightImage image{2, 1, {0, 0, 0, 1, 2, 2, 2, 1}};
+  return std::make_shared<const LightTexture>(std::move(image));
+}
+
+// 16 comparisons, as above.
+TEST(Reference, AllTechniquesHaveOneMeanForImages) {
+  for (const Lobe& lobe : kLobes)
+    for (Light light : {beside_mirror(lobe), across_horizon(lobe)}) {
+      const double plain = estimate(Technique::both, lobe, 0.2, light).mean;
+      light.texture = half_lit();
+      const Estimate both = estimate(Technique::both, lobe, 0.2, light);
+      EXPECT_TRUE(agree(both, estimate(Technique::light, lobe, 0.2, light)));
+      EXPECT_TRUE(agree(both, estimate(Technique::lobe, lobe, 0.2, light)));
+      EXPECT_GT(std::abs(both.mean - plain), 1e-3 * plain) << "the image counts";
+      EXPECT_LE(both.mean, 2 * plain);
     }
 }
 
@@ -324,6 +347,46 @@ TEST(LtcRadiance, IsGgxWhereGgxIsAnLtc) {
   table.set_stored(0, table.stored_at(0) * Eigen::Vector3d(3, 3, 1).asDiagonal());
   EXPECT_GT(std::abs(ltc_radiance(table, lobe, 1, light) - ggx.mean),
             5 * ggx.standard_error + 0.01);
+}
+
+TEST(LtcRadiance, OfAnImageOfOneColorIsThatOfTheLight) {
+  const Table table = testing::synthetic_table(Grid::paper(4), Storage::mirror_frame);
+  for (const Lobe& lobe : kLobes) {
+    Light light = beside_mirror(lobe);
+    const double plain = ltc_radiance(table, lobe, 0.3, light);
+    light.texture = std::make_shared<const LightTexture>(LightImage{1, 1, {0.5f, 0.5f, 0.5f, 1}});
+    EXPECT_NEAR(ltc_radiance(table, lobe, 0.3, light), plain / 2, 1e-6 * plain);
+  }
+}
+
+// A sharp lobe shows the pixel that it is mirrored from, by the table as by sampling.
+TEST(LtcRadiance, OfASharpLobeIsThePixelThatItMeets) {
+  Grid grid;
+  grid.alpha = Axis::make(0.01, 0.01, 1, Warp::linear);
+  grid.lambda = Axis::make(0.5, 0.5, 1, Warp::linear);
+  grid.theta = Axis::make(0.6, 0.6, 1, Warp::linear);
+  grid.phi = Axis::make(0.4, 0.4, 1, Warp::linear);
+  const Table table = testing::synthetic_table(grid, Storage::matrix);
+  const Lobe lobe{0.01, 0.005, 0.6, 0.4};
+  const double albedo = look_up(table, lobe).amplitude;
+  LightImage image{4, 4, std::vector<float>(64, 1)};
+  for (std::size_t i = 0; i < 16; ++i)
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      image.rgba[4 * i + channel] = static_cast<float>(i) / 16;
+  Light light = light_facing_origin(lobe.mirror(), 0.8, 0.8);
+  light.texture = std::make_shared<const LightTexture>(image);
+  // The mirror direction meets the middle of a pixel each.
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) {
+      Light moved = light;
+      moved.center -= (column - 1.5) / 2 * light.half_u - (row - 1.5) / 2 * light.half_v;
+      const double expected =
+          image.texel(static_cast<std::size_t>(row), static_cast<std::size_t>(column))[0];
+      // A pixel is 0.4 wide, the lobe some 0.02: all but its tails, some 1 %, of at most 1.
+      EXPECT_NEAR(ltc_radiance(table, lobe, 1, moved) / albedo, expected, 0.02);
+      const Estimate ggx = estimate(Technique::both, lobe, 1, moved);
+      EXPECT_NEAR(ggx.mean / integrate_albedo(lobe, AlbedoRule()).amplitude, expected, 0.02);
+    }
 }
 
 TEST(LtcRadiance, IsNaNWhereTheTableHasNothing) {
