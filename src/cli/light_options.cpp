@@ -56,7 +56,7 @@ Eigen::Vector3d LightArguments::center(ObjectShape shape) const {
 
 std::string LightArguments::text() const {
   if (has_image())
-    return "the image " + kind;
+    return "the image " + std::filesystem::path(kind).filename().string();
   return kind == "rectangle" ? "a rectangular light" : "a light: " + kind;
 }
 
