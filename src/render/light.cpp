@@ -36,9 +36,10 @@ std::optional<Light> strip_of(const Light& line) {
   const double distance = foot.norm();
   if (!(distance > radius)) {
     if (std::abs(at) <= half_length)
-      throw InputError(fmt::format(
-          "a line light of radius {:.4g} at distance {:.4g} of a point; it must not touch the object",
-          radius, distance));
+      throw InputError(
+          fmt::format("a line light of radius {:.4g} at distance {:.4g} of a point; it must not "
+                      "touch the object",
+                      radius, distance));
     return std::nullopt;
   }
   const double ratio = radius / distance;
@@ -91,9 +92,10 @@ std::optional<Light> Light::flat() const {
   if (shape != LightShape::sphere)
     return *this;
   if (!(center.norm() > half_u.norm()))
-    throw InputError(fmt::format(
-        "a sphere light of radius {:.4g} at distance {:.4g} of a point; it must not touch the object",
-        half_u.norm(), center.norm()));
+    throw InputError(
+        fmt::format("a sphere light of radius {:.4g} at distance {:.4g} of a point; it must not "
+                    "touch the object",
+                    half_u.norm(), center.norm()));
   const Ellipse disk = disk_of_sphere(center, half_u.norm());
   // Towards the origin.
   return Light{disk.center, disk.half_v, disk.half_u, LightShape::disk};
