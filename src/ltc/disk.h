@@ -24,7 +24,7 @@ struct Ellipse {
 Ellipse disk_of_sphere(const Eigen::Vector3d& center, double radius);
 
 // The integral of z/pi d omega over the part of the ellipse where z >= 0 and n.p >= 0 for all the
-// normals n, of any length, exact. In [0, 1]. Absolute error some 1e-15; where nothing is cut off,
+// normals n, of any length, exact. In [0, 1]. Absolute error some 1e-14; where nothing is cut off,
 // also relative. Throws InputError for what is not finite.
 double clamped_cosine_share(const Ellipse& ellipse, std::span<const Eigen::Vector3d> normals = {});
 
