@@ -133,6 +133,8 @@ void tell_files(const CLI::App& app, Files& files) {
   each([&](const std::string& kind, const std::string& name, const std::string& value) {
     if (kind == value_kind::input)
       files.read(name, value);
+    else if (kind == value_kind::image)
+      files.read_alone(name, value);
   });
   each([&](const std::string& kind, const std::string& name, const std::string& value) {
     if (kind == value_kind::output || (kind == value_kind::json && value != "-"))

@@ -18,6 +18,7 @@ Action declare_render(CLI::App& app);
 Action declare_convert(CLI::App& app);
 Action declare_bake(CLI::App& app);
 Action declare_lookup(CLI::App& app);
+Action declare_prefilter(CLI::App& app);
 Action declare_stress(CLI::App& app);
 Action declare_completion(CLI::App& app);
 Action declare_man(CLI::App& app);
@@ -46,11 +47,13 @@ std::span<const Command> commands() {
        "measure the run time and error of many settings in one run", declare_bench},
       {"stress", "Compare and validate tables",
        "fit at the extremes from good and bad starts, and count what fails", declare_stress},
-      {"render", "Compare and validate tables", "render spheres with a table and with sampled GGX",
-       declare_render},
+      {"render", "Compare and validate tables",
+       "render spheres and sheets with a table and with sampled GGX", declare_render},
       {"convert", "Use tables", "write a table in another format or layout", declare_convert},
       {"bake", "Use tables", "make a table of any grid from a field", declare_bake},
       {"lookup", "Use tables", "print what a table gives for the lobes of a file", declare_lookup},
+      {"prefilter", "Use tables", "make the texture that shaders fetch for a light's image",
+       declare_prefilter},
       {"completion", "Help at hand", "print a script by which bash, zsh or fish complete commands",
        declare_completion},
       {"man", "Help at hand", "print the manual page", declare_man},

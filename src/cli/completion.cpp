@@ -25,7 +25,8 @@ struct Word {
   bool takes_value() const { return !shown_as.empty(); }
   bool is_folder() const { return kind == value_kind::folder; }
   bool is_file() const {
-    return kind == value_kind::input || kind == value_kind::output || kind == value_kind::json;
+    return kind == value_kind::input || kind == value_kind::image || kind == value_kind::output ||
+           kind == value_kind::json;
   }
   // The values between braces, with spaces between; empty if there is no such list.
   std::string choices() const {

@@ -29,10 +29,13 @@ bool same_file(const fs::path& a, const fs::path& b) {
 }  // namespace
 
 void Files::read(const std::string& name, const fs::path& file) {
-  for (const fs::path& part : files_of_table(file)) {
-    inputs_.push_back({name, part});
-    require_apart(inputs_.back(), outputs_);
-  }
+  for (const fs::path& part : files_of_table(file))
+    read_alone(name, part);
+}
+
+void Files::read_alone(const std::string& name, const fs::path& file) {
+  inputs_.push_back({name, file});
+  require_apart(inputs_.back(), outputs_);
 }
 
 void Files::write(const std::string& name, const fs::path& file) {

@@ -21,6 +21,9 @@ class Files {
   // Throws InputError if it is told as an output.
   void read(const std::string& name, const std::filesystem::path& file);
 
+  // The same of a file that stands for itself, whatever it is called: an image.
+  void read_alone(const std::string& name, const std::filesystem::path& file);
+
   // A file that is written. Throws InputError if it is an input or another output by any name or
   // link; IoError if it cannot be written: it is a folder or a device, or its own folder is missing
   // or refuses it.

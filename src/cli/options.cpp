@@ -90,6 +90,12 @@ void add_table_argument(CLI::App& app, const std::string& name, std::string& fil
   add_input_option(app, name, file, what + ", " + endings_text(is_read))->required();
 }
 
+void add_image_argument(CLI::App& app, const std::string& name, std::string& file,
+                        const std::string& what) {
+  CLI::Option* const option = of_kind(app.add_option(name, file, what), value_kind::image, "FILE");
+  allow(option, not_empty("a file"))->required();
+}
+
 CLI::Option* add_output_option(CLI::App& app, const std::string& name, std::string& file,
                                const std::string& what) {
   CLI::Option* const option =

@@ -53,8 +53,8 @@ CLI::Option* add_names_option(CLI::App& app, const std::string& name, Enum& valu
 // What the value of an option is. Kept as the option's type name, for Files and for completion;
 // of names, "{a,b}".
 namespace value_kind {
-inline constexpr std::string_view input = "input", output = "output", json = "json",
-                                  folder = "folder";
+inline constexpr std::string_view input = "input", image = "image", output = "output",
+                                  json = "json", folder = "folder";
 }
 
 // A file that the command reads.
@@ -62,6 +62,9 @@ CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::strin
                               const std::string& what);
 // The same, as an argument without a name that has to be given: a table of any format.
 void add_table_argument(CLI::App& app, const std::string& name, std::string& file,
+                        const std::string& what);
+// An image, as an argument without a name that has to be given.
+void add_image_argument(CLI::App& app, const std::string& name, std::string& file,
                         const std::string& what);
 // A file that the command writes, in a folder that is there.
 CLI::Option* add_output_option(CLI::App& app, const std::string& name, std::string& file,

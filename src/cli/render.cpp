@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// ltcfit render: spheres under a rectangular light, by sampled GGX and by a table.
+// ltcfit render: spheres and sheets under a light, by sampled GGX and by a table.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/light_options.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -40,7 +42,7 @@ struct Arguments {
   RoughnessArguments roughness;
   std::vector<std::string> materials;  // as parse_roughness takes them
   double f0 = 1;
-  double light_size = 1;  // times that of figure 14
+  LightArguments light;
   SphereSettings settings;
   std::string output = "out";
   std::string json;  // empty: none
@@ -91,6 +93,11 @@ Tables load_tables(const Arguments& arguments) {
   return tables;
 }
 
+// What several objects are called: the files, and the picture's title.
+std::string plural_of(ObjectShape shape) {
+  return fmt::format("{}s", name_of(shape));
+}
+
 // Where the files go: DIR/spheres.png and beside it, or, for a name that ends with .png, that file
 // and beside it.
 struct Destination {
@@ -104,9 +111,9 @@ struct Destination {
   }
 };
 
-Destination destination_of(const fs::path& output) {
+Destination destination_of(const fs::path& output, ObjectShape shape) {
   if (output.extension() != ".png")
-    return {output, "spheres", true};
+    return {output, plural_of(shape), true};
   return {output.parent_path(), output.stem().string(), false};
 }
 
@@ -134,7 +141,12 @@ RenderReport report_of(const Arguments& arguments, const std::vector<SphereMater
   RenderReport report;
   report.files = tables.paths;
   report.names = tables.names;
-  report.light_size = arguments.light_size;
+  const ObjectShape shape = arguments.settings.scene.shape;
+  report.shape = name_of(shape);
+  report.light = arguments.light.kind;
+  report.light_position = arguments.light.center(shape);
+  report.light_size = arguments.light.size;
+  report.two_sided = arguments.light.two_sided;
   report.samples = arguments.settings.samples;
   report.size = arguments.settings.size;
   report.picture = destination.picture();
@@ -147,15 +159,14 @@ RenderReport report_of(const Arguments& arguments, const std::vector<SphereMater
 
 void render_all(const Arguments& arguments, const Tables& tables, RenderReport& report,
                 Progress& progress) {
+  const RunContext run{arguments.threads, &progress};
   SphereSettings settings = arguments.settings;
-  settings.scene.light.half_u *= arguments.light_size;
-  settings.scene.light.half_v *= arguments.light_size;
+  settings.scene.light = light_of(arguments.light, settings.scene.shape, run);
   for (SphereRow& row : report.rows) {
     const Clock::time_point began = Clock::now();
     const std::string stage =
         fmt::format("render {:.4g}, {:.4g}", row.material.alpha_x, row.material.alpha_y);
-    row.images = render_sphere(tables.pointers(), row.material, settings, stage,
-                               {arguments.threads, &progress});
+    row.images = render_sphere(tables.pointers(), row.material, settings, stage, run);
     report.seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
   }
 }
@@ -189,7 +200,9 @@ void write_images(const SphereRow& row, const Arguments& arguments, const fs::pa
       {"ltc:generator", generator()},
       {"ltc:material", fmt::format("alpha_x {}, alpha_y {}, F0 {}", material.alpha_x,
                                    material.alpha_y, material.f0)},
-      {"ltc:light_size", fmt::format("{}", arguments.light_size)},
+      {"ltc:shape", std::string(name_of(arguments.settings.scene.shape))},
+      {"ltc:light", arguments.light.kind},
+      {"ltc:light_size", fmt::format("{}", arguments.light.size)},
       {"ltc:samples", fmt::format("{}", arguments.settings.samples)},
       {"ltc:table", arguments.table}};
   if (images.ltc.size() > 1) {
@@ -200,14 +213,18 @@ void write_images(const SphereRow& row, const Arguments& arguments, const fs::pa
   write_image_exr(layers, attributes, path);
 }
 
-SpherePicture picture_of(const RenderReport& report) {
+SpherePicture picture_of(const Arguments& arguments, const RenderReport& report) {
   SpherePicture content;
-  content.title = "Spheres under a rectangular light";
+  content.shape = arguments.settings.scene.shape;
+  content.title =
+      fmt::format("{} under {}", plural_of(content.shape), one_line(arguments.light.text()));
+  content.title.front() = static_cast<char>(std::toupper(content.title.front()));
   content.caption = {
-      fmt::format(
-          "x along the parallels about the upright axis, y along the meridians. GGX: multiple "
-          "importance sampling, {} samples a pixel.",
-          report.samples),
+      fmt::format("{}. GGX: multiple importance sampling, {} samples a pixel.",
+                  content.shape == ObjectShape::sphere
+                      ? "x along the parallels about the upright axis, y along the meridians"
+                      : "x to the right, y away from the camera",
+                  report.samples),
       "Differences and errors are in units of the light's radiance. " + tables_text(report)};
   content.tables = report.names;
   content.rows = report.rows;
@@ -219,7 +236,9 @@ void render(const Arguments& arguments, Files& files) {
   const StopOnInterrupt stop_on_interrupt(progress);
   const std::vector<SphereMaterial> materials = materials_of(arguments);
   const Tables tables = load_tables(arguments);
-  const Destination destination = destination_of(arguments.output);
+  const Destination destination = destination_of(arguments.output, arguments.settings.scene.shape);
+  if (arguments.light.has_image())
+    files.read_alone("--light", arguments.light.kind);
   if (destination.is_folder)
     files.make_folder(destination.folder);
   RenderReport report = report_of(arguments, materials, tables, destination);
@@ -230,7 +249,7 @@ void render(const Arguments& arguments, Files& files) {
   tell(clamping_warnings(report));
   render_all(arguments, tables, report, progress);
   require_some_entries(report);
-  const picture::Canvas picture = draw(picture_of(report));
+  const picture::Canvas picture = draw(picture_of(arguments, report));
   // The last chance to stop.
   progress.throw_if_stopped();
   for (std::size_t row = 0; row < report.rows.size(); ++row)
@@ -247,20 +266,23 @@ Action declare_render(CLI::App& app) {
   add_table_argument(app, "TABLE", arguments->table, "table to render with");
   add_layout_option(app, arguments->layout);
   constexpr const char* what = "What to render";
-  add_roughness_options(app, arguments->roughness,
-                        {"roughness along the parallels [the four materials of figure 14]",
-                         "roughness along the meridians, together with --alpha-x", what});
+  add_roughness_options(
+      app, arguments->roughness,
+      {"roughness along x, the parallels of a sphere [the four materials of figure "
+       "14]",
+       "roughness along y, together with --alpha-x", what});
   app.add_option("--material", arguments->materials,
-                 "roughness along the parallels and along the meridians, or "
+                 "roughness along x and along y, or "
                  "roughness=R,anisotropy=A; can be repeated")
       ->allow_extra_args(false)
       ->option_text("X,Y")
       ->group(what);
-  allow(app.add_option("--light-size", arguments->light_size,
-                       "width and height of the light over those of figure 14 [1]"),
-        number({0.001, 2}))
-      ->option_text("S")
+  add_names_option(
+      app, "--shape", arguments->settings.scene.shape,
+      "what is lit: a sphere, a level plane, or a sheet bent about the x axis [sphere]")
+      ->option_text("SHAPE")
       ->group(what);
+  add_light_options(app, arguments->light, "Under which light");
   allow(app.add_option("--f0", arguments->f0,
                        "reflectance at normal incidence, of Schlick's term [1]"),
         number({0, 1}))
@@ -269,7 +291,7 @@ Action declare_render(CLI::App& app) {
   add_input_option(app, "--table-b", arguments->table_b, "another table to compare with [none]")
       ->group(what);
   allow(app.add_option("--size", arguments->settings.size,
-                       "width and height of a sphere, pixels [320]"),
+                       "width and height of an image, pixels [320]"),
         whole_number(8, 2048))
       ->option_text("N")
       ->group("How to render");
@@ -280,8 +302,8 @@ Action declare_render(CLI::App& app) {
       ->option_text("N")
       ->group("How to render");
   allow(app.add_option("-o,--output", arguments->output,
-                       "folder for spheres.png and an .exr a material, created if need be, or the "
-                       "name of the .png [out]"),
+                       "folder for spheres.png (planes.png, sheets.png) and an .exr a material, "
+                       "created if need be, or the name of the .png [out]"),
         {"a folder, or a file that ends in .png", is_folder_or_png})
       ->type_name(std::string(value_kind::folder))
       ->option_text("PATH")

@@ -95,7 +95,12 @@ std::string report_text(const RenderReport& report) {
 }
 
 std::string report_json(const RenderReport& report) {
-  Json json = {{"light_size", report.light_size},
+  Json json = {{"shape", report.shape},
+               {"light", report.light},
+               {"light_position",
+                {report.light_position.x(), report.light_position.y(), report.light_position.z()}},
+               {"light_size", report.light_size},
+               {"two_sided", report.two_sided},
                {"samples", report.samples},
                {"size", report.size},
                {"picture", report.picture.string()},

@@ -13,7 +13,10 @@ namespace ltc::cli {
 
 struct RenderReport {
   std::vector<std::string> files, names;  // of the tables; what the pictures call them
-  double light_size = 1;                  // times that of figure 14
+  std::string shape, light;               // "sphere"; a light's shape, or the file of its image
+  Eigen::Vector3d light_position;
+  double light_size = 1;  // times that of figure 14
+  bool two_sided = false;
   std::size_t samples = 0, size = 0;
   // One a material.
   std::vector<SphereRow> rows;

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "export/exr_header.h"
 
+#include <ImfHeader.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -120,6 +122,15 @@ std::string exr_header_fault(const std::filesystem::path& path) {
   if (*version & other_layouts)
     return "not a single-part scan-line image";
   return fault_of_attributes(bytes);
+}
+
+BoundedExrSize::BoundedExrSize(std::size_t largest_side) {
+  const int largest = static_cast<int>(largest_side);
+  Imf::Header::setMaxImageSize(largest, largest);
+}
+
+BoundedExrSize::~BoundedExrSize() {
+  Imf::Header::setMaxImageSize(0, 0);  // no bound, the library's default
 }
 
 }  // namespace ltc

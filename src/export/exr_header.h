@@ -4,6 +4,7 @@
 // the file has that many bytes.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -14,5 +15,15 @@ namespace ltc {
 // file, and give every value the size that its type has, for the library goes by the type. Files
 // that do not begin as OpenEXR does are left to the library to refuse.
 std::string exr_header_fault(const std::filesystem::path& path);
+
+// While one of these lives, no header can make the library take memory for an image with a larger
+// side.
+class BoundedExrSize {
+ public:
+  explicit BoundedExrSize(std::size_t largest_side);
+  ~BoundedExrSize();
+  BoundedExrSize(const BoundedExrSize&) = delete;
+  BoundedExrSize& operator=(const BoundedExrSize&) = delete;
+};
 
 }  // namespace ltc

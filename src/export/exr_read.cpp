@@ -34,19 +34,6 @@ using namespace exr_layout;
   throw InputError(fmt::format("{}: {}", path.string(), on_one_line(what)));
 }
 
-// While one of these lives, no header can make the library take memory for an image larger than the
-// largest table's atlas.
-class BoundedImageSize {
- public:
-  BoundedImageSize() {
-    constexpr int largest = static_cast<int>(max_nodes_per_axis * max_nodes_per_axis);
-    Imf::Header::setMaxImageSize(largest, largest);
-  }
-  ~BoundedImageSize() { Imf::Header::setMaxImageSize(0, 0); }  // no bound, the library's default
-  BoundedImageSize(const BoundedImageSize&) = delete;
-  BoundedImageSize& operator=(const BoundedImageSize&) = delete;
-};
-
 // The value of an attribute of type Attribute.
 template <class Attribute>
 auto attribute(const Imf::Header& header, const char* name, const fs::path& path) {
@@ -182,7 +169,8 @@ void read_file_into(Table& table, std::size_t index, const fs::path& path) {
   const std::uintmax_t file_bytes = require_readable(path);
   if (const std::string fault = exr_header_fault(path); !fault.empty())
     refuse(path, fault);
-  const BoundedImageSize bound;
+  // The largest table's atlas.
+  const BoundedExrSize bound(max_nodes_per_axis * max_nodes_per_axis);
   try {
     constexpr int no_threads = 0;
     Imf::InputFile file(path.c_str(), no_threads);

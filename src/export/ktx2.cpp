@@ -4,8 +4,12 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,6 +32,7 @@ constexpr std::size_t vk_format = 12, type_size = 16, width = 20, height = 24, d
 
 constexpr std::string_view identifier = "\xABKTX 20\xBB\r\n\x1A\n";
 constexpr std::size_t header_bytes = 104;  // with the index of one level
+constexpr std::size_t bytes_of_index_entry = 24;
 constexpr std::uint32_t scheme_none = 0, scheme_zstd = 2;
 
 // VkFormat.
@@ -92,6 +97,83 @@ std::string compressed(const std::string& bytes) {
     throw IoError(fmt::format("cannot compress with Zstandard: {}", ZSTD_getErrorName(size)));
   result.resize(size);
   return result;
+}
+
+// All of them compressed, or nothing where our own reader took one for a bomb.
+std::optional<std::vector<std::string>> all_compressed(const std::vector<std::string>& levels) {
+  std::vector<std::string> result;
+  for (const std::string& level : levels) {
+    result.push_back(compressed(level));
+    if (!may_expand(result.back().size(), level.size()))
+      return std::nullopt;
+  }
+  return result;
+}
+
+void require_mip_levels(std::span<const Image> levels) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const auto side = [&](std::size_t full) { return std::max(full >> i, std::size_t{1}); };
+    const Image &level = levels[i], &base = levels.front();
+    if (level.shape != ImageShape::flat || level.channels != base.channels ||
+        level.precision != base.precision || level.width != side(base.width) ||
+        level.height != side(base.height))
+      throw InputError(
+          fmt::format("mip level {} is {} x {} texels of {} channels; expected a flat "
+                      "one, {} x {} of {}",
+                      i, level.width, level.height, level.channels, side(base.width),
+                      side(base.height), base.channels));
+  }
+  if (levels.empty())
+    throw InputError("a texture without a mip level; expected at least one");
+}
+
+std::string encoded(std::span<const Image> levels, bool zstd) {
+  for (const Image& level : levels)
+    require_storable(level);
+  const Image& image = levels.front();
+  const TexelFormat& format = format_of(image, vk_formats);
+  std::string bytes(header_bytes + bytes_of_index_entry * (levels.size() - 1), '\0');
+  const auto put = [&](std::size_t offset, std::size_t value) {
+    put_number(bytes, offset, static_cast<std::uint32_t>(value));
+  };
+  bytes.replace(0, identifier.size(), identifier);
+  put(at::vk_format, format.code);
+  put(at::type_size, bytes_per_value(image.precision));
+  put(at::width, image.width);
+  put(at::height, image.height);
+  put(at::depth, image.shape == ImageShape::volume ? image.layers : 0);
+  put(at::layers, image.shape == ImageShape::array ? image.layers : 0);
+  put(at::faces, 1);
+  put(at::levels, levels.size());
+  for (const auto& [offset, block] : {std::pair{at::description, description_of(image)},
+                                      std::pair{at::key_values, key_values()}}) {
+    put(offset, bytes.size());
+    put(offset + 4, block.size());
+    bytes += block;
+  }
+  std::vector<std::string> contents;
+  for (const Image& level : levels)
+    contents.push_back(value_bytes(level));
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    put_number(bytes, at::level_uncompressed + bytes_of_index_entry * i,
+               std::uint64_t{contents[i].size()});
+  if (zstd)
+    if (auto small = all_compressed(contents)) {
+      put(at::scheme, scheme_zstd);
+      contents = std::move(*small);
+    }
+  // The smallest first, so that a reader has something to show early.
+  for (std::size_t i = levels.size(); i-- > 0;) {
+    if (bytes[at::scheme] == scheme_none)  // aligned to texels and to four bytes
+      while (bytes.size() %
+             std::lcm(image.channels * bytes_per_value(image.precision), std::size_t{4}))
+        bytes += '\0';
+    const std::size_t entry = bytes_of_index_entry * i;
+    put_number(bytes, at::level_offset + entry, std::uint64_t{bytes.size()});
+    put_number(bytes, at::level_length + entry, std::uint64_t{contents[i].size()});
+    bytes += contents[i];
+  }
+  return bytes;
 }
 
 class Input {
@@ -198,41 +280,12 @@ class Input {
 }  // namespace
 
 std::string encode_ktx2(const Image& image, bool zstd) {
-  require_storable(image);
-  const TexelFormat& format = format_of(image, vk_formats);
-  std::string bytes(header_bytes, '\0');
-  const auto put = [&](std::size_t offset, std::size_t value) {
-    put_number(bytes, offset, static_cast<std::uint32_t>(value));
-  };
-  bytes.replace(0, identifier.size(), identifier);
-  put(at::vk_format, format.code);
-  put(at::type_size, bytes_per_value(image.precision));
-  put(at::width, image.width);
-  put(at::height, image.height);
-  put(at::depth, image.shape == ImageShape::volume ? image.layers : 0);
-  put(at::layers, image.shape == ImageShape::array ? image.layers : 0);
-  put(at::faces, 1);
-  put(at::levels, 1);
-  for (const auto& [offset, block] : {std::pair{at::description, description_of(image)},
-                                      std::pair{at::key_values, key_values()}}) {
-    put(offset, bytes.size());
-    put(offset + 4, block.size());
-    bytes += block;
-  }
-  std::string level = value_bytes(image);
-  put_number(bytes, at::level_uncompressed, std::uint64_t{level.size()});
-  if (zstd)
-    if (std::string small = compressed(level); may_expand(small.size(), level.size())) {
-      put(at::scheme, scheme_zstd);
-      level = std::move(small);
-    }
-  if (bytes[at::scheme] == scheme_none)  // aligned to texels and to four bytes
-    while (bytes.size() %
-           std::lcm(image.channels * bytes_per_value(image.precision), std::size_t{4}))
-      bytes += '\0';
-  put_number(bytes, at::level_offset, std::uint64_t{bytes.size()});
-  put_number(bytes, at::level_length, std::uint64_t{level.size()});
-  return bytes + level;
+  return encoded(std::span(&image, 1), zstd);
+}
+
+std::string encode_ktx2(std::span<const Image> levels, bool zstd) {
+  require_mip_levels(levels);
+  return encoded(levels, zstd);
 }
 
 Image decode_ktx2(std::string_view bytes, const fs::path& file) {

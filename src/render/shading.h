@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Radiance that a point reflects from a rectangular light: by a table's LTC, exactly integrated,
-// and by sampling the lobe, which is the reference.
+// Radiance that a point reflects from a light: by a table's LTC, exactly integrated, and by
+// sampling the lobe, which is the reference.
 #pragma once
 
 #include <array>
@@ -20,14 +20,19 @@ struct SphereMaterial {
   bool operator==(const SphereMaterial&) const = default;
 };
 
-// (F0 amplitude + (1 - F0) fresnel) times the integral of the LTC over the light (equation 11 of
-// Heitz et al. 2016). The light is cut off at the point's horizon first, and then, transformed, at
-// that of the cosine. NaN where the table has no value or a matrix without an inverse.
-double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const RectangleLight& light);
+// The integral of a clamped cosine's transform by M (ltc/ltsd.h) over what emits to the origin: of
+// polygons by equation 11 of Heitz et al. 2016, of disks and spheres by ltc/disk.h, of lines by
+// ltc/line.h. The light is cut off at the point's horizon first, and then, transformed, at that of
+// the cosine. Throws InputError where the origin lies within the light.
+double ltc_share(const Eigen::Matrix3d& matrix, const Light& light);
+
+// (F0 amplitude + (1 - F0) fresnel) times that, and times what is fetched from the light's texture
+// (render/light_texture.h). NaN where the table has no value or a matrix without an inverse.
+double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light& light);
 
 // Which samples an estimate is made of. Every choice has the same mean.
 enum class Technique {
-  light,  // points uniform on the light's area
+  light,  // points uniform on the light's area, or on that of the flat light in its place
   lobe,   // of the lobe itself, for GGX reflections about visible normals
   both,   // as many of each, weighted by the balance heuristic (Veach 1997)
 };
@@ -41,8 +46,7 @@ class ReferenceIntegrator {
   // Independent uniforms on [0, 1) that shift the lattices: estimates with independent shifts are
   // independent, each with the exact radiance as its mean.
   using Shifts = std::array<double, 4>;
-  double radiance(const Lobe& lobe, double f0, const RectangleLight& light,
-                  const Shifts& shifts) const;
+  double radiance(const Lobe& lobe, double f0, const Light& light, const Shifts& shifts) const;
 
  private:
   Technique technique_;

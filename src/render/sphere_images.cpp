@@ -86,7 +86,7 @@ class PixelRow {
   void add(const ShadingPoint& point, Random& random) {
     const Lobe lobe =
         point.lobe(material_.alpha_x, material_.alpha_y, *tables_.front()->grid.model);
-    const RectangleLight light = point.seen(settings_.scene.light);
+    const Light light = point.seen(settings_.scene.light);
     ++covered_;
     for (double& sum : reference_) {
       ReferenceIntegrator::Shifts shifts;

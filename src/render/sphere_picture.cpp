@@ -169,7 +169,8 @@ class Painter {
       outside = outside | beyond(colors.scale, field.values);
       const Box box{left_of_table(table) + std::round(side_ + gap * font_), top, side_, side_};
       canvas_.image(field, colors, box);
-      canvas_.circle(box.center(), SphereScene{}.sphere_share * side_ / 2, {faint_ink, 1});
+      if (content_.shape == ObjectShape::sphere)
+        canvas_.circle(box.center(), SphereScene{}.sphere_share * side_ / 2, {faint_ink, 1});
     }
     draw_upright_bar(canvas_, {bar_left(), top, bar_width(), side_}, colors, 0.8 * font_, outside);
   }

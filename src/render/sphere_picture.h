@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Rendered spheres as one picture: a row a material; GGX, then LTC and difference for each table.
+// Rendered objects as one picture: a row a material; GGX, then LTC and difference for each table.
 #pragma once
 
 #include <string>
@@ -23,6 +23,7 @@ struct SpherePicture {
   std::vector<std::string> caption;  // lines below
   std::vector<std::string> tables;   // what their columns are called
   std::vector<SphereRow> rows;       // all images of one size
+  ObjectShape shape = ObjectShape::sphere;
 };
 
 // Radiance is shown in sRGB; a row's images share an exposure, which brings the brightest of GGX

@@ -1,44 +1,45 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// What is rendered: a sphere under a rectangular light, seen by a pinhole camera.
+// What is rendered: a sphere, or a flat or bent sheet, under a light, seen by a pinhole camera.
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 
 #include "brdf/ggx.h"
+#include "core/enum_names.h"
+#include "render/light.h"
 
 namespace ltc {
 
-// Emits radiance 1 from one side, that which half_u x half_v points to. The half sides are
-// perpendicular.
-struct RectangleLight {
-  Eigen::Vector3d center, half_u, half_v;
-
-  double area() const { return 4 * half_u.norm() * half_v.norm(); }
-  Eigen::Vector3d normal() const;
-  // Counter-clockwise as ltc/polygon.h has it, for a point at the origin that the light reaches.
-  std::array<Eigen::Vector3d, 4> corners() const;
-  // Whether the side that emits faces the origin.
-  bool faces_origin() const { return normal().dot(center) < 0; }
+enum class ObjectShape {
+  sphere,  // radius 1 about the origin
+  plane,   // (x, 0, z), |x| and |z| <= 1.6, seen from above
+  sheet,   // (x, 1.5 cos t - 1, 1.5 sin t), |x| <= 1.6, |t| <= 60 degrees, seen from outside
 };
+constexpr EnumNames<ObjectShape, 3> enum_names(ObjectShape) {
+  return {"shape",
+          {{{ObjectShape::sphere, "sphere"},
+            {ObjectShape::plane, "plane"},
+            {ObjectShape::sheet, "sheet"}}}};
+}
 
-// World: the sphere has radius 1 and its centre at the origin; y is up, and the camera looks along
-// -z from (0, 0, camera_distance).
+// Where the light of a scene is unless it is said: up, to the right and before the sphere; above
+// and behind the middle of a plane and a sheet, whose reflections it shows.
+Eigen::Vector3d usual_light_position(ObjectShape shape);
+
+// World: y is up. The camera looks at the origin, for the sphere along -z, for others 30 degrees
+// downwards, from camera_distance.
 struct SphereScene {
-  // Up, to the right and before the sphere, turned towards it.
-  RectangleLight light = facing_origin({1.0, 1.5, 2.1}, 1.1, 0.7);
+  Light light = standard_light(LightShape::rectangle, usual_light_position(ObjectShape::sphere), 1);
+  ObjectShape shape = ObjectShape::sphere;
   double camera_distance = 6;
-  double sphere_share = 0.94;  // of the picture's width and height
-
-  // A light centred there that faces the origin, its u side level.
-  static RectangleLight facing_origin(const Eigen::Vector3d& center, double half_width,
-                                      double half_height);
+  double sphere_share = 0.94;  // what a sphere takes of the picture's width and height
 };
 
-// A point of the sphere. Its tangent frame follows the parallels and meridians about the upright
-// axis: x points east (to the right, as the camera sees it), y north, z out.
+// A point of the object. Tangent frame: x east (to the right, as the camera sees it), z out. On the
+// sphere x follows the parallels about the upright axis, y the meridians; on plane and sheet x is
+// the world's x, and y leads away from the camera.
 struct ShadingPoint {
   Eigen::Vector3d position;
   Eigen::Matrix3d to_tangent;  // world directions to the tangent frame
@@ -46,10 +47,10 @@ struct ShadingPoint {
 
   Lobe lobe(double alpha_x, double alpha_y, const LobeModel& model) const;
   // The light as the point sees it: relative to it, in its tangent frame.
-  RectangleLight seen(const RectangleLight& light) const;
+  Light seen(const Light& light) const;
 };
 
-// Where the camera ray through a point of the picture meets the sphere: x to the right and y up,
+// Where the camera ray through a point of the picture meets the object: x to the right and y up,
 // both from -1 to 1. Nothing where it misses.
 std::optional<ShadingPoint> shading_point(const SphereScene& scene, double x, double y);
 

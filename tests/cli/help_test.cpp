@@ -13,8 +13,9 @@
 namespace ltc::test {
 namespace {
 
-const std::vector<std::string> all_commands = {
-    "generate", "fit", "diff", "validate", "bench", "stress", "render", "convert", "lookup", "completion", "man"};
+const std::vector<std::string> all_commands = {"generate", "fit",       "diff",       "validate",
+                                               "bench",    "stress",    "render",     "convert",
+                                               "lookup",   "prefilter", "completion", "man"};
 
 TEST(Wrap, BreaksBetweenWordsAlone) {
   EXPECT_EQ(cli::wrapped("a bb ccc", 80, 0, 0), "a bb ccc");

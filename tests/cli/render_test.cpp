@@ -3,10 +3,12 @@
 // ltcfit render as a user runs it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "export/table_file.h"
+#include "render/png_writer.h"
 #include "support/program.h"
 #include "support/refusal.h"
 #include "table/synthetic.h"
@@ -82,6 +84,48 @@ TEST_F(Render, TakesMaterialsAndTheSizeOfTheLight) {
   };
   EXPECT_EQ(image("large"), image("same"));
   EXPECT_NE(image("large"), image("small"));
+}
+
+TEST_F(Render, LightsObjectsOfEveryShapeByLightsOfEveryShape) {
+  folder_.write("window.png", testing::window_png(16));
+  std::vector<std::string> images;
+  const std::pair<std::string, std::string> objects[] = {
+      {"sphere", "spheres"}, {"plane", "planes"}, {"sheet", "sheets"}};
+  for (const auto& [shape, plural] : objects)
+    for (const std::string light : {"rectangle", "star", "disk", "sphere", "line", "window.png"}) {
+      const ProgramResult result = run({"t.h5", "--material", "0.4,0.4", "--shape", shape,
+                                        "--light", light, "-o", "o", "--json", "r.json"});
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+      images.push_back(read_file(folder_ / "o" / (plural + "_0.4_0.4.exr")));
+      const auto report = nlohmann::json::parse(read_file(folder_ / "r.json"));
+      EXPECT_EQ(report["shape"], shape);
+      EXPECT_EQ(report["light"], light);
+      EXPECT_EQ(report["light_position"],
+                shape == "sphere" ? nlohmann::json({1, 1.5, 2.1}) : nlohmann::json({0, 1.5, -2}));
+      EXPECT_EQ(report["two_sided"], false);
+      EXPECT_GT(report["materials"][0]["tables"][0]["reference_mean"], 1e-3);
+    }
+  std::sort(images.begin(), images.end());
+  EXPECT_EQ(std::unique(images.begin(), images.end()), images.end()) << "no two of 18 alike";
+}
+
+TEST_F(Render, MovesTheLight) {
+  const auto mean = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"t.h5", "--material", "0.4,0.4", "-o",
+                                       "o",    "--json",     "r.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(
+               read_file(folder_ / "r.json"))["materials"][0]["tables"][0]["reference_mean"]
+        .get<double>();
+  };
+  EXPECT_EQ(mean({"--light-position", "1,1.5,2.1"}), mean({}));
+  EXPECT_LT(mean({"--light-position", "0,0,-3"}), 0.2 * mean({}));
+  // Lights face the middle: only what is beyond their plane sees their other side.
+  EXPECT_EQ(mean({"--two-sided"}), mean({}));
+  EXPECT_GT(mean({"--light-position", "0.3,0.3,0.3", "--two-sided"}),
+            1.01 * mean({"--light-position", "0.3,0.3,0.3"}));
 }
 
 // roughness 0.3 and anisotropy 0.5 are alpha 0.3175 and 0.09; 0.5 and 0 are 0.25 and 0.25.
@@ -169,6 +213,19 @@ TEST_F(Render, RefusesBadInputInOneLineAndWritesNothing) {
     expect_refusal({"t.h5", "--material", material}, 2, {"--material", material, "[0.0001, 1]"});
   for (const char* size : {"0", "nan", "3"})
     expect_refusal({"t.h5", "--light-size", size}, 2, {"--light-size", size, "[0.001, 2]"});
+  for (const char* light : {"cone", "x.jpg", ""})
+    expect_refusal({"t.h5", "--light", light}, 2, {"--light", light, "rectangle, star", ".exr"});
+  for (const char* position :
+       {"0", "1,2", "1,2,", "1,2,x", "0,0,0", "1,2,3,4", "nan,0,1", "1,2,2000"})
+    expect_refusal({"t.h5", "--light-position", position}, 2,
+                   {"--light-position", position, "X,Y,Z"});
+  expect_refusal({"t.h5", "--shape", "cube"}, 2, {"--shape cube", "sphere, plane or sheet"});
+  expect_refusal({"t.h5", "--light", "none.png"}, 3, {"none.png"});
+  folder_.write("bad.png", "no picture");
+  expect_refusal({"t.h5", "--light", "bad.png"}, 2, {"bad.png", "no image"});
+  expect_refusal({"t.h5", "--light", "bad.png", "-o", "bad.png"}, 2, {"bad.png", "same file"});
+  expect_refusal({"t.h5", "--light", "sphere", "--light-position", "0,0,1.2"}, 2,
+                 {"sphere light of radius 0.6", "must not touch the object"});
   expect_refusal({}, 2, {"TABLE"});
   expect_refusal({"missing.h5"}, 3, {"missing.h5"});
   expect_refusal({"no.h5"}, 2, {"no.h5"});

@@ -8,7 +8,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -214,6 +216,51 @@ TEST(Ktx2, BombsAreRefusedAndNotWritten) {
                  "bytes that expand to 69206016; allowed beyond 64 MiB: 256 times");
 }
 
+// 5 x 3, 2 x 1, 1 x 1.
+std::vector<Image> mip_levels() {
+  std::vector<Image> levels;
+  for (const auto& [width, height] : {std::pair{5, 3}, std::pair{2, 1}, std::pair{1, 1}})
+    levels.push_back(numbered_image(ImageShape::flat, Precision::half, 4,
+                                    static_cast<std::size_t>(width),
+                                    static_cast<std::size_t>(height)));
+  return levels;
+}
+
+TEST(Ktx2, MipLevelsLieFromTheSmallestToTheLargest) {
+  const std::vector<Image> levels = mip_levels();
+  for (const bool zstd : {false, true}) {
+    const std::string bytes = encode_ktx2(std::span(levels), zstd);
+    EXPECT_EQ(field(bytes, 40), 3u);
+    EXPECT_EQ(field(bytes, 48), 104u + 2 * 24) << "the descriptor follows the index";
+    std::uint64_t end = bytes.size();
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const auto offset = field<std::uint64_t>(bytes, 80 + 24 * i),
+                 length = field<std::uint64_t>(bytes, 88 + 24 * i);
+      EXPECT_LE(offset + length, end);
+      EXPECT_LT(end - offset - length, 8u);
+      end = offset;
+      const std::string values = encode_dds(levels[i]).substr(148);
+      EXPECT_EQ(field<std::uint64_t>(bytes, 96 + 24 * i), values.size());
+      std::string found = bytes.substr(offset, length);
+      if (zstd) {
+        std::string plain(values.size(), ' ');
+        EXPECT_EQ(ZSTD_decompress(plain.data(), plain.size(), found.data(), found.size()),
+                  values.size());
+        found = plain;
+      } else {
+        EXPECT_EQ(offset % 8, 0u);
+      }
+      EXPECT_EQ(found, values);
+    }
+  }
+  EXPECT_EQ(encode_ktx2(std::span(levels).first(1), true), encode_ktx2(levels[0], true));
+  expect_refusal([&] { encode_ktx2(std::span<const Image>(), true); }, "without a mip level");
+  std::vector<Image> wrong = levels;
+  std::swap(wrong[1], wrong[2]);
+  expect_refusal([&] { encode_ktx2(std::span(wrong), true); },
+                 "mip level 1 is 1 x 1 texels of 4 channels; expected a flat one, 2 x 1 of 4");
+}
+
 // What ktx-parse, which npm puts into tests/node_modules, finds in the bytes.
 nlohmann::json seen_by_ktx_parse(const test::TemporaryDirectory& folder, const std::string& bytes) {
   const auto path = folder.write("x.ktx2", bytes);
@@ -264,6 +311,21 @@ TEST(Ktx2, KtxParseFindsSizeFormatAndValues) {
         EXPECT_EQ(found["levels"][0]["levelData"],
                   hex(zstd ? bytes.substr(field<std::uint64_t>(bytes, 80)) : values));
       }
+  const std::vector<Image> levels = mip_levels();
+  for (const bool zstd : {false, true}) {
+    const std::string bytes = encode_ktx2(std::span(levels), zstd);
+    const auto found = seen_by_ktx_parse(folder, bytes);
+    ASSERT_TRUE(found.is_object()) << found;
+    EXPECT_EQ(found["pixelWidth"], 5);
+    ASSERT_EQ(found["levels"].size(), levels.size());
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const std::string values = encode_dds(levels[i]).substr(148);
+      EXPECT_EQ(found["levels"][i]["uncompressedByteLength"], values.size());
+      if (!zstd) {
+        EXPECT_EQ(found["levels"][i]["levelData"], hex(values)) << i;
+      }
+    }
+  }
   // And it can fail.
   EXPECT_FALSE(seen_by_ktx_parse(folder, "\xABKTX 11").is_object());
 }

@@ -62,9 +62,69 @@ TEST(SphereScene, PointsLieOnTheSphereInTheirFrames) {
   EXPECT_GT(hits, 50);
 }
 
+// Rays of every point lead back to the camera, and the normals are those of the surfaces.
+TEST(SphereScene, PointsLieOnPlaneAndSheet) {
+  const Eigen::Vector3d camera(0, 3, 6 * std::sqrt(0.75));
+  for (const ObjectShape shape : {ObjectShape::plane, ObjectShape::sheet}) {
+    SphereScene scene;
+    scene.shape = shape;
+    int hits = 0, misses = 0;
+    for (double y = -0.95; y < 1; y += 0.1)
+      for (double x = -0.95; x < 1; x += 0.1) {
+        const auto point = shading_point(scene, x, y);
+        if (!point) {
+          ++misses;
+          continue;
+        }
+        ++hits;
+        const Eigen::Vector3d& p = point->position;
+        const Eigen::Vector3d normal = point->to_tangent.row(2);
+        if (shape == ObjectShape::plane) {
+          EXPECT_EQ(p.y(), 0);
+          EXPECT_EQ(normal, Eigen::Vector3d::UnitY());
+          EXPECT_LE(std::abs(p.z()), 1.6);
+        } else {
+          // From the axis outwards.
+          EXPECT_LT((Eigen::Vector3d(0, p.y() + 1, p.z()) - 1.5 * normal).norm(), 1e-13);
+          EXPECT_GE(normal.y(), 0.5 - 1e-13);
+        }
+        EXPECT_LE(std::abs(p.x()), 1.6);
+        EXPECT_EQ(point->to_tangent.row(0), Eigen::RowVector3d::UnitX());
+        EXPECT_LT(point->to_tangent(1, 2), 0) << "y leads away from the camera";
+        EXPECT_NEAR(point->to_tangent.determinant(), 1, 1e-14);
+        EXPECT_LT((point->to_tangent * point->to_tangent.transpose() - Eigen::Matrix3d::Identity())
+                      .norm(),
+                  1e-14);
+        EXPECT_LT((point->to_tangent * (camera - p).normalized() - point->omega_v).norm(), 1e-13);
+        EXPECT_GT(point->omega_v.z(), 0);
+        // The picture's point: right and up of the camera, at the sphere's angle of view.
+        const Eigen::Vector3d ray = p - camera, ahead = -camera / 6, up(0, std::sqrt(0.75), -0.5);
+        const double scale = 1 / (std::sqrt(35.0) * scene.sphere_share);
+        EXPECT_NEAR(ray.x() / ray.dot(ahead), x * scale, 1e-13);
+        EXPECT_NEAR(ray.dot(up) / ray.dot(ahead), y * scale, 1e-13);
+      }
+    EXPECT_GT(hits, 200);
+    EXPECT_GT(misses, 0);
+  }
+}
+
+TEST(SphereImages, OfPlaneAndSheetShowTheirLight) {
+  const Table table = small_table();
+  for (const ObjectShape shape : {ObjectShape::plane, ObjectShape::sheet}) {
+    SphereSettings settings = small_settings();
+    settings.scene.shape = shape;
+    settings.scene.light = standard_light(LightShape::disk, usual_light_position(shape), 1);
+    const SphereImages images = render(table, settings);
+    const SphereError error = sphere_error(images, 0);
+    EXPECT_GT(error.pixels, 500u);
+    EXPECT_EQ(error.without, 0u);
+    EXPECT_GT(error.reference_mean, 0.02);
+  }
+}
+
 TEST(SphereImages, AreMirroredWhereTheSceneIs) {
   SphereSettings settings = small_settings();
-  settings.scene.light = SphereScene::facing_origin({0, 1.8, 2.4}, 1, 0.6);
+  settings.scene.light = light_facing_origin({0, 1.8, 2.4}, 1, 0.6);
   const SphereImages images = render(small_table(), settings);
   const std::size_t size = settings.size;
   double squares = 0, variance = 0, asymmetry_of_rows = 0;
