@@ -133,7 +133,7 @@ TEST(FieldFile, OfTablesOfNodesThereIsNone) {
   table.field.reset();
   const test::TemporaryDirectory folder;
   expect_refusal([&] { write_table(table, folder / "t_field.json", {}); }, {"holds fields"});
-  expect_refusal([&] { write_table(table, folder / "t.glsl", {}); }, {"holds fields"});
+  expect_refusal([&] { write_table(table, folder / "t.mjs", {}); }, {"holds fields"});
 }
 
 }  // namespace

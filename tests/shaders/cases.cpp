@@ -13,6 +13,7 @@
 #include "export/table_code.h"
 #include "export/texture_layout.h"
 #include "field/synthetic_field.h"
+#include "ltc/disk.h"
 #include "ltc/ltsd.h"
 #include "ltc/polygon.h"
 #include "support/program.h"
@@ -172,19 +173,6 @@ std::vector<Eigen::Vector3d> quad(const Case& asked) {
   return {asked.p, asked.p + asked.a, asked.p + asked.a + asked.b, asked.p + asked.b};
 }
 
-// A polygon of so many edges and the same area: the share is off by the cube of an edge or less.
-std::vector<Eigen::Vector3d> ellipse(const Eigen::Vector3d& c, const Eigen::Vector3d& a,
-                                     const Eigen::Vector3d& b) {
-  constexpr int edges = 512;
-  const double scale = std::sqrt(2 * pi / edges / std::sin(2 * pi / edges));
-  std::vector<Eigen::Vector3d> vertices;
-  for (int i = 0; i < edges; ++i) {
-    const double t = 2 * pi * i / edges;
-    vertices.push_back(c + scale * (std::cos(t) * a + std::sin(t) * b));
-  }
-  return vertices;
-}
-
 std::vector<Eigen::Vector3d> star(const Case& asked) {
   std::vector<Eigen::Vector3d> vertices;
   for (int i = 0; i < 10; ++i) {
@@ -192,14 +180,6 @@ std::vector<Eigen::Vector3d> star(const Case& asked) {
     vertices.push_back(asked.p + radius * (std::cos(turn) * asked.a + std::sin(turn) * asked.b));
   }
   return vertices;
-}
-
-// The disk that is seen of a sphere.
-std::vector<Eigen::Vector3d> sphere(const Eigen::Vector3d& center, double radius) {
-  const double share = 1 - radius * radius / center.squaredNorm();
-  const Eigen::Vector3d a = center.unitOrthogonal(), b = center.normalized().cross(a);
-  const double disk = radius * std::sqrt(share);
-  return ellipse(share * center, disk * a, disk * b);
 }
 
 // A strip upright on the plane of line and origin, so thin that its share is as its width.
@@ -228,7 +208,7 @@ double as_sphere(const Eigen::Matrix3d& matrix, const Case& asked) {
   }
   if (form.dot(sum) < 0)
     form = -form;
-  // The sphere of that squared sine, by a polygon.
+  // The sphere of that squared sine.
   const double length = form.norm();
   if (length == 0)
     return 0;
@@ -236,7 +216,7 @@ double as_sphere(const Eigen::Matrix3d& matrix, const Case& asked) {
   const double sine = std::sqrt(std::min(length, 1.0)),
                cosine = std::sqrt(std::max(1 - length, 0.0));
   const Eigen::Vector3d a = axis.unitOrthogonal(), b = axis.cross(a);
-  return share_of(Eigen::Matrix3d::Identity(), ellipse(cosine * axis, sine * a, sine * b));
+  return clamped_cosine_share({cosine * axis, sine * a, sine * b});
 }
 
 double light_of(const Eigen::Matrix3d& matrix, const Case& asked) {
@@ -247,9 +227,9 @@ double light_of(const Eigen::Matrix3d& matrix, const Case& asked) {
     case LightKind::star:
       return share_of(matrix, star(asked));
     case LightKind::ellipse:
-      return share_of(matrix, ellipse(asked.p, asked.a, asked.b));
+      return ltc_share(matrix, Ellipse{asked.p, asked.a, asked.b});
     case LightKind::sphere:
-      return share_of(matrix, sphere(asked.p, radius));
+      return ltc_share(matrix, disk_of_sphere(asked.p, radius));
     case LightKind::line:
       return std::min(line(matrix, asked, radius), 1.0);
     case LightKind::quad_as_sphere:

@@ -20,15 +20,6 @@ namespace {
 
 constexpr std::size_t most_faults = 5;
 
-// Whether the surface's horizon or the cosine's runs through an ellipse or a sphere.
-bool is_cut(const Eigen::Matrix3d& matrix, const Case& asked) {
-  if (asked.light == LightKind::sphere)
-    return true;  // told apart by nothing here
-  const Eigen::RowVector3d height = matrix.inverse().row(2);
-  return std::abs(asked.p.z()) < std::hypot(asked.a.z(), asked.b.z()) ||
-         std::abs(height.dot(asked.p)) < std::hypot(height.dot(asked.a), height.dot(asked.b));
-}
-
 // What one driver answered, and how far off it may be.
 class Comparison {
  public:
@@ -97,11 +88,8 @@ class Comparison {
                 1e-5 * std::max(1.0, w.row(row).norm() * m.col(column).norm()));
     if (filtered || c.look_up == LookUpKind::isotropic)
       return;
-    // A density is as large as the lobe is small. A horizon cuts 64 chords, not the ellipse.
-    const bool round = c.light == LightKind::ellipse || c.light == LightKind::sphere;
-    const double scale = c.light == LightKind::density  ? std::max(1.0, e.share)
-                         : round && is_cut(e.matrix, c) ? 40
-                                                        : 1;
+    // A density is as large as the lobe is small.
+    const double scale = c.light == LightKind::density ? std::max(1.0, e.share) : 1;
     require(i, "a light's share", std::abs(at(i, 2, 3) - e.share), 1e-4 * scale);
     for (int axis = 0; axis < 3; ++axis)
       require(i, "a picture's place or level", std::abs(at(i, 3 + axis, 3) - e.picture(axis)),
