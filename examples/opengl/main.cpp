@@ -76,8 +76,7 @@ GLuint make_program(const std::string& shaders, const std::string& table) {
       "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler3D;\n";
   std::string fragment = version + read_file(shaders + "/ltc_lobe.glsl") +
                          read_file(shaders + "/ltc_table.glsl") + read_file(table) +
-                         read_file(shaders + "/ltc_polygon.glsl") +
-                         read_file(shaders + "/../../examples/opengl/spheres.frag");
+                         read_file(shaders + "/ltc_polygon.glsl") + read_file(SPHERES_FRAG);
   const GLuint program = glCreateProgram();
   glAttachShader(program, compile(GL_VERTEX_SHADER, version + R"(
 void main() {
@@ -173,7 +172,7 @@ void write_png(const Image& image, const std::string& name) {
 void run(std::vector<std::string> arguments) {
   std::string raw;
   std::vector<Sphere> spheres = {
-      {0.1f, 0.1f, 0}, {0.5f, 0.1f, 0}, {0.1f, 0.5f, 0}, {0.5f, 0.5f, 0}};
+      {0.05f, 0.25f, 0}, {0.5f, 0.02f, 0}, {0.5f, 0.25f, 0}, {0.5f, 1.0f, 0}};
   int columns = 4;
   for (std::size_t i = 0; i < arguments.size();)
     if (arguments[i] == "--mistakes") {
