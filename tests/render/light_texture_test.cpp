@@ -127,43 +127,6 @@ TEST(LightTexture, IsFetchedAtTheProjection) {
   EXPECT_EQ(texture_fetch(center, u, 2 * u).s, 0.5);
 }
 
-// The snippet of docs/validation.md, transcribed, in single precision.
-struct ShaderFetch {
-  Eigen::Vector2f st;
-  float deviation;
-};
-ShaderFetch shader_fetch(const Eigen::Vector3f& c, const Eigen::Vector3f& u,
-                         const Eigen::Vector3f& v) {
-  const Eigen::Vector3f n = u.cross(v);
-  const float squared = n.dot(n);
-  const Eigen::Vector3f foot = c.dot(n) / squared * n - c;
-  const Eigen::Vector2f place =
-      Eigen::Vector2f(foot.cross(v).dot(n), u.cross(foot).dot(n)) / squared;
-  const Eigen::Vector2f st =
-      Eigen::Vector2f(0.5f, 0.5f) + Eigen::Vector2f(0.5f, -0.5f).cwiseProduct(place);
-  return {st, std::abs(c.dot(n)) / std::sqrt(8.0f * squared * std::sqrt(squared))};
-}
-
-TEST(LightTexture, IsFetchedAlikeInAShader) {
-  Random random(5);
-  for (int i = 0; i < 200; ++i) {
-    // After M^-1 of a lobe as sharp as 1e-3, or 1e-3 of it: the factor is free.
-    const double scale = std::pow(10.0, 6 * random.uniform() - 3);
-    const Eigen::Vector3d stretch(scale, scale, scale * (0.01 + random.uniform()));
-    const auto vector = [&] { return random.direction().cwiseProduct(stretch).eval(); };
-    const Eigen::Vector3d c = vector(), u = vector(), v = vector();
-    if (u.cross(v).norm() < 0.1 * u.norm() * v.norm())
-      continue;
-    const TextureFetch expected = texture_fetch(c, u, v);
-    const ShaderFetch found = shader_fetch(c.cast<float>(), u.cast<float>(), v.cast<float>());
-    // Single precision, ten times less where the half sides are nearly parallel.
-    EXPECT_NEAR(found.st.x(), expected.s, 1e-4 * (1 + std::abs(expected.s)));
-    EXPECT_NEAR(found.st.y(), expected.t, 1e-4 * (1 + std::abs(expected.t)));
-    EXPECT_NEAR(found.deviation, expected.standard_deviation,
-                1e-4 * (1 + expected.standard_deviation));
-  }
-}
-
 TEST(LightTexture, IsSampledTrilinearly) {
   const std::vector<Image> levels = prefilter(noise(16, 16), 16, "prefilter", {1});
   // At a texel's centre and a level's deviation: that texel.
