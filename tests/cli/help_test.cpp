@@ -14,7 +14,7 @@ namespace ltc::test {
 namespace {
 
 const std::vector<std::string> all_commands = {
-    "generate", "fit", "diff", "validate", "bench", "stress", "render", "convert", "lookup", "completion", "man"};
+    "generate", "fit", "diff", "validate", "bench", "stress", "render", "view", "convert", "lookup", "completion", "man"};
 
 TEST(Wrap, BreaksBetweenWordsAlone) {
   EXPECT_EQ(cli::wrapped("a bb ccc", 80, 0, 0), "a bb ccc");

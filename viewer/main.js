@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+// The page put together: the state, its fragment, the pointer, and what is said.
+
+const SETTLE_MS = 220;
+const MOST_PIXELS = 1.4e6;
+
+class Viewer {
+  constructor(data) {
+    this.data = data;
+    this.canvas = element('picture');
+    this.sentences = [];
+    this.state = standardState(data.tables);
+    this.controls = new Controls(data, (key, value, moving) => this.set(key, value, moving));
+    this.probe = new Probe(data);
+    this.words();
+    this.listen();
+    this.begin();
+    this.readFragment();
+  }
+
+  // What depends on the context, anew when that was lost.
+  begin() {
+    this.stage = new Stage(this.canvas, this.data, {
+      figures: () => this.tellFigures(),
+      presented: ({ exposure, bound }) => this.presented(exposure, bound) });
+    this.notes = this.stage.graphics.notes;
+    this.fit();
+  }
+
+  words() {
+    const text = (table) => table.field ? `field of ${table.numbers} numbers`
+      : `${table.size.join(' × ')} nodes, ${table.storage_name}, ${table.half ? 16 : 32} bits`;
+    element('tables').replaceChildren(...this.data.tables.map((table, i) => {
+      const line = document.createElement('p'), name = document.createElement('b');
+      name.textContent = (this.data.tables.length > 1 ? `${'AB'[i]}: ` : '') + table.name;
+      line.append(name, ` ${text(table)}`);
+      if (table.missing) line.append(`; ${table.missing} entries are missing: the nearest stand for them`);
+      return line;
+    }));
+    element('version').textContent = this.data.version;
+    element('scale').style.background = `linear-gradient(90deg, ${this.scaleColors().join(', ')})`;
+  }
+
+  scaleColors() {
+    const bytes = this.data.diverging, colors = [];
+    for (let i = 0; i < bytes.length; i += 12) colors.push(`rgb(${bytes.slice(i, i + 3)})`);
+    return colors;
+  }
+
+  // ---- State ----
+
+  set(key, value, moving) {
+    if (key === 'gltf') return value === this.state.gltf || this.change(withOtherRoughness(this.state), moving);
+    if (key === 'auto')
+      return this.change({ ...this.state, exposure: value ? 'auto' : Number(short(this.stage.exposure)) }, moving);
+    const taken = valueOf(key, String(value));
+    if (taken === undefined) {
+      this.sentences = [refusalOf(key, value, this.state)];
+      this.controls.follow(this.state, this.stage.exposure);
+      return this.tell();
+    }
+    const next = { ...this.state, [key]: taken };
+    // A light that stands where it does by default goes where the shape has it.
+    if (key === 'shape' && PLACES.every((place) => this.state[place] === standardOf(place, this.state.shape)))
+      PLACES.forEach((place) => { next[place] = standardOf(place, taken); });
+    this.change(next, moving);
+  }
+
+  change(next, moving) {
+    this.state = next;
+    this.sentences = [];
+    this.show(moving);
+    const fragment = fragmentOf(next, this.data.tables);
+    const address = location.href.replace(/#.*$/, '') + (fragment ? `#${fragment}` : '#');
+    try { history.replaceState(null, '', address); } catch { location.replace(address); }
+  }
+
+  readFragment() {
+    const { state, refused } = stateOfFragment(location.hash, this.data.tables);
+    this.state = state;
+    this.sentences = refused;
+    this.show(false);
+  }
+
+  show(moving) {
+    if (!this.stage) return;
+    clearTimeout(this.settling);
+    if (moving) this.settling = setTimeout(() => { this.stage.settle(); this.wake(); }, SETTLE_MS);
+    const changed = this.attempt(() => this.stage.show(this.state, moving));
+    this.controls.follow(this.state, this.stage.exposure);
+    element('divider').hidden = this.state.view !== 'split';
+    element('divider').style.left = `${100 * this.state.split}%`;
+    element('divider').setAttribute('aria-valuenow', Math.round(100 * this.state.split));
+    for (const label of document.querySelectorAll('.side')) label.hidden = this.state.view !== 'split';
+    element('legend').hidden = !this.state.view.startsWith('difference');
+    if (changed) element('measured').classList.add('stale');
+    this.tellFigures();
+    this.wake();
+  }
+
+  // ---- Frames, only while there is something to do ----
+
+  wake() {
+    this.awake ??= requestAnimationFrame(() => this.frame());
+  }
+
+  frame() {
+    this.awake = null;
+    if (this.lost || this.failed) return;
+    const more = this.attempt(() => this.stage.frame());
+    if (this.probing && this.stage.shownPicture()) {
+      this.probing = false;
+      this.attempt(() => this.probe.show(this.stage, this.place));
+    }
+    this.tell();
+    if (more || this.probing) this.wake();
+  }
+
+  attempt(work) {
+    try {
+      return work();
+    } catch (error) {
+      if (!this.stage.graphics.gl.isContextLost()) fail(error);
+      this.failed = !this.stage.graphics.gl.isContextLost();
+      return false;
+    }
+  }
+
+  fit() {
+    const { clientWidth, clientHeight } = this.canvas;
+    if (!clientWidth || !clientHeight) return;
+    const ratio = Math.min(devicePixelRatio || 1, 2, Math.sqrt(MOST_PIXELS / (clientWidth * clientHeight)));
+    this.stage.resize(Math.round(clientWidth * ratio), Math.round(clientHeight * ratio));
+    this.probing = true;
+    this.wake();
+  }
+
+  // ---- What is said ----
+
+  presented(exposure, bound) {
+    if (this.state.exposure === 'auto') this.controls.exposureIs(exposure);
+    if (bound) [element('legend-least').textContent, element('legend-most').textContent] = [`−${bound}`, `+${bound}`];
+    this.canvas.setAttribute('aria-label', `${CHOICES.view[this.state.view]}: ${this.state.shape} under a light, ` +
+      `${this.state.light}. Arrow keys turn it.`);
+  }
+
+  tellFigures() {
+    const figures = this.stage.figures, number = this.state.view.endsWith('_b') ? 1 : 0;
+    element('rmse').classList.toggle('waiting', !figures);
+    if (!figures) {
+      element('rmse').textContent = '…';
+      element('noise').textContent = 'waiting for GGX';
+      element('done').style.width = '0';
+      return;
+    }
+    const { rmse, noise } = figures.errors[number], percent = (x) => `${(100 * x).toPrecision(3)} %`;
+    element('measured').classList.remove('stale');
+    element('rmse').textContent = Number.isFinite(rmse) ? percent(rmse) : 'no light on it';
+    element('noise').textContent = Number.isFinite(noise)
+      ? `of it noise of GGX ${percent(noise)}${noise > rmse / 5 ? ', much' : ''}; ${figures.samples} samples a pixel` : '';
+    element('done').style.width = figures.finished ? '100%' : `${100 * clamp(NOISE_WANTED / noise, 0, 1)}%`;
+    this.probing = true;
+  }
+
+  tell() {
+    const said = [...this.notes, ...this.sentences, faultOfLight(this.state)].filter(Boolean);
+    if (this.state.lookup === 'filter' && this.data.tables.some((table) => !table.field && !table.filtered))
+      said.push('This browser does not filter 32-bit textures (OES_texture_float_linear): looked up by texels.');
+    if (this.data.tables.some((table) => table.material))
+      said.push('A field of one material: its roughness is its own.');
+    element('status').textContent = [...said, this.progress()].join(' ');
+    element('status').classList.toggle('warning', said.length > 0);
+  }
+
+  progress() {
+    const { figures } = this.stage, size = this.stage.fineSize().join(' × ');
+    if (!figures) return this.stage.shownPicture() === this.stage.fine && this.stage.fine ? 'GGX is sampled.' : 'The table is drawn.';
+    const noise = `noise ${(100 * figures.errors[0].noise).toPrecision(2)} % of the mean`;
+    return figures.finished ? `GGX is done: ${figures.samples} samples a pixel, ${noise}; ${size} pixels.`
+      : `GGX is sampled: ${figures.samples} samples a pixel, ${noise}.`;
+  }
+
+  say(sentence) {
+    this.sentences = [sentence];
+    this.tell();
+  }
+
+  // ---- Hands ----
+
+  listen() {
+    addEventListener('hashchange', () => this.readFragment());
+    new ResizeObserver(() => this.attempt(() => this.fit())).observe(this.canvas);
+    this.canvas.addEventListener('webglcontextlost', (event) => this.lose(event));
+    this.canvas.addEventListener('webglcontextrestored', () => this.restore());
+    this.canvas.addEventListener('pointerdown', (event) => this.grab(event));
+    this.canvas.addEventListener('pointermove', (event) => this.move(event));
+    this.canvas.addEventListener('pointerup', () => this.letGo());
+    this.canvas.addEventListener('pointercancel', () => this.letGo());
+    this.canvas.addEventListener('keydown', (event) => this.key(event));
+    this.listenToDivider(element('divider'));
+    element('reset').addEventListener('click', () => this.change(standardState(this.data.tables), false));
+    element('copy').addEventListener('click', () => this.copy());
+    element('theme').addEventListener('click', () => this.switchTheme());
+  }
+
+  placeOf(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return [(event.clientX - box.left) / box.width, 1 - (event.clientY - box.top) / box.height];
+  }
+
+  grab(event) {
+    this.held = { x: event.clientX, y: event.clientY, yaw: this.state.yaw, pitch: this.state.pitch };
+    this.canvas.setPointerCapture(event.pointerId);
+    this.place = this.placeOf(event);
+    this.probing = true;
+    this.wake();
+  }
+
+  move(event) {
+    if (!this.held) {
+      this.place = this.placeOf(event);
+      this.probing = true;
+      return this.wake();
+    }
+    const degrees = 180 / this.canvas.clientHeight;
+    this.turnTo(this.held.yaw - (event.clientX - this.held.x) * degrees,
+                this.held.pitch + (event.clientY - this.held.y) * degrees);
+  }
+
+  letGo() {
+    this.held = null;
+    this.stage.settle();
+    this.wake();
+  }
+
+  turnTo(yaw, pitch) {
+    const around = (yaw + 540) % 360 - 180;
+    const [low, high] = this.state.shape === 'sphere' ? [-86, 86] : [-26, 56];
+    this.change({ ...this.state, yaw: Number(short(around)), pitch: Number(short(clamp(pitch, low, high))) }, true);
+  }
+
+  key(event) {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    if (!event.shiftKey) return this.turnTo(this.state.yaw + 5 * step[0], this.state.pitch + 5 * step[1]);
+    const from = this.place ?? [0.5, 0.5];
+    this.place = from.map((x, i) => clamp(x + 0.01 * step[i], 0, 1));
+    this.probing = true;
+    this.showCross();
+    this.wake();
+  }
+
+  showCross() {
+    element('cross').hidden = false;
+    element('cross').style.left = `${100 * this.place[0]}%`;
+    element('cross').style.bottom = `${100 * this.place[1]}%`;
+  }
+
+  listenToDivider(divider) {
+    const to = (event) => this.set('split', clamp(this.placeOf(event)[0], 0, 1), true);
+    divider.addEventListener('pointerdown', (event) => divider.setPointerCapture(event.pointerId));
+    divider.addEventListener('pointermove', (event) => { if (event.buttons) to(event); });
+    divider.addEventListener('keydown', (event) => {
+      const step = { ArrowLeft: -0.02, ArrowRight: 0.02, Home: -1, End: 1 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      this.set('split', Number(short(clamp(this.state.split + step, 0, 1))), false);
+    });
+  }
+
+  async copy() {
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.say('The link is copied.');
+    } catch {
+      this.say(this.copyByHand() ? 'The link is copied.' : `The browser copies nothing; the link is ${location.href}`);
+    }
+  }
+
+  copyByHand() {
+    const text = document.createElement('textarea');
+    text.value = location.href;
+    document.body.append(text);
+    text.select();
+    const done = document.execCommand('copy');
+    text.remove();
+    return done;
+  }
+
+  switchTheme() {
+    const dark = getComputedStyle(document.documentElement).colorScheme.trim() === 'dark';
+    document.documentElement.dataset.theme = dark ? 'light' : 'dark';
+  }
+
+  // ---- A context comes and goes ----
+
+  lose(event) {
+    event.preventDefault();
+    this.lost = true;
+    showMessage('The browser took the graphics context away. The picture comes back when it gives it back; if not, reload the page.');
+    element('status').textContent = 'The graphics context is lost.';
+  }
+
+  restore() {
+    this.lost = false;
+    hideMessage();
+    this.attempt(() => {
+      const fixed = this.stage.fixed;
+      this.begin();
+      if (fixed) this.stage.fix(fixed);
+    });
+    this.sentences = ['The graphics context was lost, and is back.'];
+    this.show(false);
+  }
+
+  // ---- For tests ----
+
+  hook() {
+    return {
+      state: () => ({ ...this.state, alphas: alphasOf(this.state), finished: this.stage.finished,
+                      ready: !!this.stage.fine?.ready, errors: this.stage.figures?.errors ?? null,
+                      samples: this.stage.figures?.samples ?? 0, exposure_shown: this.stage.exposure,
+                      status: element('status').textContent }),
+      set: (key, value) => this.set(key, value, false),
+      fix: (size) => { this.stage.fix(size); this.wake(); },
+      // Of table A: radiance and cover, rows from below.
+      pixels: (number = 0) => [...this.stage.graphics.read(this.stage.fine.tables[number])],
+      loseContext: () => {
+        const extension = this.stage.graphics.gl.getExtension('WEBGL_lose_context');
+        extension.loseContext();
+        return { back: () => extension.restoreContext() };
+      },
+    };
+  }
+}
+
+function showMessage(sentence) {
+  element('message').textContent = sentence;
+  element('message').hidden = false;
+}
+
+function hideMessage() { element('message').hidden = true; }
+
+function fail(error) {
+  showMessage(error.message);
+  element('status').textContent = error.message;
+  element('status').classList.add('warning');
+}
+
+try {
+  window.ltcViewer = new Viewer(readData()).hook();
+} catch (error) {
+  fail(error);
+}
