@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Writes OUTPUT, a .cpp with the bytes of FILES, which ltc::viewer_file (src/report/viewer_files.h)
 # finds by their names without folders.
+cmake_minimum_required(VERSION 3.25)
 set(arrays "")
 set(names "")
 set(number 0)
@@ -10,8 +11,7 @@ foreach(file IN LISTS FILES)
   string(LENGTH "${hex}" digits)
   math(EXPR size "${digits} / 2")
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
-  string(REGEX REPLACE "(....................................................................................................)" "\1
-" bytes "${bytes}")  # 20 a line
+  string(REGEX REPLACE "(....................................................................................................)" "\\1\n" bytes "${bytes}")  # 20 a line
   string(APPEND arrays "constexpr unsigned char file_${number}[] = {\n${bytes}0};\n")
   string(APPEND names "    {\"${name}\", file_${number}, ${size}},\n")
   math(EXPR number "${number} + 1")

@@ -75,8 +75,8 @@ const PICTURE_TEXELS = 192, LEVEL_TEXELS = 256;
 
 function paneSeeds() {
   const seeds = [];
-  const colors = [[0.9, 0.12, 0.08], [1, 0.62, 0.1], [0.1, 0.35, 0.95], [0.08, 0.7, 0.35],
-                  [0.95, 0.85, 0.6], [0.55, 0.12, 0.75], [0.1, 0.75, 0.9]];
+  const colors = [[0.9, 0.03, 0.02], [1, 0.36, 0.03], [0.02, 0.11, 0.9], [0.01, 0.42, 0.13],
+                  [0.9, 0.72, 0.32], [0.36, 0.02, 0.55], [0.02, 0.5, 0.75]];
   let state = 12345;
   const random = () => { state = (Math.imul(state, 1664525) + 1013904223) >>> 0; return state / 2 ** 32; };
   for (let row = 0; row < 5; ++row)

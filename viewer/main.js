@@ -96,6 +96,7 @@ class Viewer {
     element('legend').hidden = !this.state.view.startsWith('difference');
     if (changed) element('measured').classList.add('stale');
     this.tellFigures();
+    this.tell();
     this.wake();
   }
 
@@ -174,10 +175,11 @@ class Viewer {
   }
 
   progress() {
-    const { figures } = this.stage, size = this.stage.fineSize().join(' × ');
-    if (!figures) return this.stage.shownPicture() === this.stage.fine && this.stage.fine ? 'GGX is sampled.' : 'The table is drawn.';
+    const { figures, measured } = this.stage;
+    if (!figures) return measured?.ready ? 'GGX is sampled.' : 'The table is drawn.';
     const noise = `noise ${(100 * figures.errors[0].noise).toPrecision(2)} % of the mean`;
-    return figures.finished ? `GGX is done: ${figures.samples} samples a pixel, ${noise}; ${size} pixels.`
+    const size = `${measured.width} × ${measured.height} pixels`;
+    return figures.finished ? `GGX is done: ${figures.samples} samples a pixel, ${noise}; ${size}.`
       : `GGX is sampled: ${figures.samples} samples a pixel, ${noise}.`;
   }
 
@@ -198,6 +200,7 @@ class Viewer {
     this.canvas.addEventListener('pointerup', () => this.letGo());
     this.canvas.addEventListener('pointercancel', () => this.letGo());
     this.canvas.addEventListener('keydown', (event) => this.key(event));
+    this.canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     this.listenToDivider(element('divider'));
     element('reset').addEventListener('click', () => this.change(standardState(this.data.tables), false));
     element('copy').addEventListener('click', () => this.copy());
@@ -240,7 +243,18 @@ class Viewer {
     this.change({ ...this.state, yaw: Number(short(around)), pitch: Number(short(clamp(pitch, low, high))) }, true);
   }
 
+  zoomBy(factor) {
+    const { least, most } = PARAMETERS.zoom;
+    this.change({ ...this.state, zoom: Number(clamp(this.state.zoom * factor, least, most).toPrecision(3)) }, true);
+  }
+
+  wheel(event) {
+    event.preventDefault();
+    this.zoomBy(Math.exp(-0.001 * clamp(event.deltaY, -200, 200)));
+  }
+
   key(event) {
+    if ('+-'.includes(event.key)) return this.zoomBy(event.key === '+' ? 1.1 : 1 / 1.1);
     const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
     if (!step) return;
     event.preventDefault();
@@ -320,13 +334,14 @@ class Viewer {
   hook() {
     return {
       state: () => ({ ...this.state, alphas: alphasOf(this.state), finished: this.stage.finished,
-                      ready: !!this.stage.fine?.ready, errors: this.stage.figures?.errors ?? null,
-                      samples: this.stage.figures?.samples ?? 0, exposure_shown: this.stage.exposure,
+                      ready: !!this.stage.sharp?.ready, errors: this.stage.figures?.errors ?? null,
+                      samples: this.stage.figures?.samples ?? 0, nanoseconds: this.stage.nanoseconds,
+                      sizes: ['table', 'ggx'].map((kind) => this.stage.sizeOf(kind)), exposure_shown: this.stage.exposure,
                       status: element('status').textContent }),
       set: (key, value) => this.set(key, value, false),
       fix: (size) => { this.stage.fix(size); this.wake(); },
       // Of table A: radiance and cover, rows from below.
-      pixels: (number = 0) => [...this.stage.graphics.read(this.stage.fine.tables[number])],
+      pixels: (number = 0) => [...this.stage.graphics.read(this.stage.sharp.tables[number])],
       loseContext: () => {
         const extension = this.stage.graphics.gl.getExtension('WEBGL_lose_context');
         extension.loseContext();

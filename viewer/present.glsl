@@ -62,7 +62,7 @@ void main() {
   float cover = a.w;
   for (int i = 0; i < 4; ++i) {
     vec2 pixel = (floor(gl_FragCoord.xy) + vec2(0.25 + 0.5 * float(i % 2), 0.25 + 0.5 * float(i / 2)));
-    vec3 ray = ray_at(pixel * picture_size / canvas_size);
+    vec3 ray = ray_at(pixel);
     vec4 seen = light_seen(ray);
     if (seen.w < 1e8) {
       Hit hit = hit_of(ray);
@@ -72,8 +72,7 @@ void main() {
       }
     }
   }
-  vec2 place = (2.0 * gl_FragCoord.xy - canvas_size) / min(canvas_size.x, canvas_size.y);
-  vec3 behind = stage(place);
+  vec3 behind = stage(2.0 * (gl_FragCoord.xy - picture.xy) / picture.z);
   vec3 color;
   if (view == 3 || view == 4) {
     // Divided by the cover, so that edges are not paler than what is within.

@@ -9,7 +9,7 @@ const int RECTANGLE = 0, STAR = 1, DISK = 2, BALL = 3, LINE = 4, PICTURE = 5;
 uniform vec3 camera;
 uniform mat3 camera_frame;  // columns: to the right, up, back
 uniform float view_scale;   // of the picture's half side at distance 1
-uniform vec2 picture_size;  // pixels
+uniform vec3 picture;       // the middle of its square, and its side, pixels
 uniform vec2 turn;          // cosine and sine of the tangent frame's turn about the normal
 
 // One-sided lights emit to the side of u x v. Half sides; of disks radii, of stars unit lengths.
@@ -29,7 +29,7 @@ struct Hit {
 };
 
 vec3 ray_at(vec2 pixel) {
-  vec2 place = (2.0 * pixel - picture_size) / min(picture_size.x, picture_size.y);
+  vec2 place = 2.0 * (pixel - picture.xy) / picture.z;
   return normalize(camera_frame * vec3(view_scale * place, -1.0));
 }
 

@@ -7,19 +7,27 @@ const NOISE_WANTED = 0.01;     // of the mean
 const MOST_SAMPLES = 4096;     // of each kind, point and half
 const MOST_A_PASS = 16;        // of these
 const FRAME_MS = 28;           // of drawing, between looks at the page
-const SLOWEST_FINE_MS = 1600;  // a table's picture that takes longer is made smaller
+const SLOWEST_TABLE_MS = 4000;  // what takes longer is made smaller: a table's picture,
+const SLOWEST_GGX_MS = 12000;   // and this many samples of GGX
+const GGX_SAMPLES = 64;
 const BRIGHTEST = 0.9;         // what nearly the brightest becomes, as in `ltcfit render`
 const NEARLY_ALL = 0.998;
-const DETAILS = [1, 0.75, 0.5, 0.35];
+const DETAILS = [1, 0.75, 0.5, 0.35, 0.25];
 const POINTS = 4;
+// What of the canvas lies under words, pixels of the page: the picture is the largest square between.
+const ABOVE = 58, BELOW = 40;
 
 // How far a picture is. `passes` of GGX are whole ones.
 class Picture {
   constructor(graphics, width, height, points) {
     Object.assign(this, { graphics, width, height, points });
     this.tables = graphics.data.tables.map(() => graphics.target(width, height, 1));
-    this.ggx = [0, 1].map(() => graphics.target(width, height, 2));
     this.restart();
+  }
+  // Two of two halves: one is read while the other is written.
+  get ggx() {
+    this.sums ??= [0, 1].map(() => this.graphics.target(this.width, this.height, 2));
+    return this.sums;
   }
   restart() {
     this.tablesDone = 0;
@@ -29,7 +37,7 @@ class Picture {
     this.job = null;
   }
   get ready() { return this.tablesDone === this.tables.length; }
-  release() { [...this.tables, ...this.ggx].forEach((target) => this.graphics.release(target)); }
+  release() { [...this.tables, ...(this.sums ?? [])].forEach((target) => this.graphics.release(target)); }
 }
 
 class Stage {
@@ -38,7 +46,7 @@ class Stage {
     Object.assign(this, { canvas, data, heard });
     this.graphics = new Graphics(canvas, data);
     this.nanoseconds = { table: null, ggx: null };  // a point of a pixel; a sample of one
-    this.detail = 0;
+    this.detail = { table: 0, ggx: 0 };             // of DETAILS
     this.fixed = null;  // a size that was asked for
     this.seed = 1;
     this.lobes = this.graphics.target(2 * LOBE_TEXELS, LOBE_TEXELS, 1);
@@ -71,16 +79,23 @@ class Stage {
     this.drop();
   }
 
-  // Pixels of the picture itself, whatever the canvas; null: as many as fit.
+  // Of what is as large as the canvas or smaller: the middle of the picture's square, and its side.
+  squareOf(width, height) {
+    if (this.fixed) return [width / 2, height / 2, Math.min(width, height)];
+    const unit = height / Math.max(this.canvas.clientHeight, 1);
+    const room = Math.max(height - (ABOVE + BELOW) * unit, 0.3 * height);
+    return [width / 2, Math.max(height - ABOVE * unit - room, 0) + room / 2, Math.min(width, room)];
+  }
+
+  // Pixels of the picture alone, whatever the canvas; null: as many as fit.
   fix(size) {
     this.fixed = size;
     this.drop();
   }
 
   drop() {
-    this.fine?.release();
-    this.coarse?.release();
-    this.fine = this.coarse = null;
+    for (const picture of new Set([this.sharp, this.measured, this.coarse])) picture?.release();
+    this.sharp = this.measured = this.coarse = null;
     if (this.state) this.restart();
   }
 
@@ -89,13 +104,12 @@ class Stage {
     this.stale = true;
     this.finished = false;
     this.chooseDetail();
-    this.coarse?.restart();
-    this.fine?.restart();
+    for (const picture of [this.sharp, this.measured, this.coarse]) picture?.restart();
   }
 
   sceneUniforms(state) {
     const camera = cameraOf(state), light = lightOf(state), rotation = radians(state.rotation);
-    return { camera: camera.position, camera_frame: camera.frame, view_scale: VIEW_SCALE,
+    return { camera: camera.position, camera_frame: camera.frame, view_scale: VIEW_SCALE / state.zoom,
              turn: [Math.cos(rotation), Math.sin(rotation)], light_center: light.center,
              light_u: light.u, light_v: light.v, light_radius: light.radius,
              alpha: alphasOf(state), f0: reflectanceOf(state), seed: this.seed,
@@ -111,33 +125,35 @@ class Stage {
 
   // ---- Sizes ----
 
-  fineSize() {
+  sizeOf(kind) {
     if (this.fixed) return this.fixed;
-    const share = DETAILS[this.detail];
+    const share = DETAILS[this.detail[kind]];
     return [this.canvas.width, this.canvas.height].map((side) => Math.max(16, Math.round(share * side)));
   }
 
-  // Of a table's picture, as far as it is known.
-  fineMilliseconds(detail = this.detail) {
+  // Of a picture by the tables, or with some samples of GGX, as far as it is known.
+  milliseconds(kind, detail = this.detail[kind]) {
     const pixels = this.fixed ? this.fixed[0] * this.fixed[1]
       : this.canvas.width * this.canvas.height * DETAILS[detail] ** 2;
-    return (this.nanoseconds.table ?? 1e4) * pixels * POINTS * this.data.tables.length * 1e-6;
+    const each = kind === 'table' ? (this.nanoseconds.table ?? 1000) * this.data.tables.length
+      : (this.nanoseconds.ggx ?? (this.nanoseconds.table ?? 1000) / 3) * GGX_SAMPLES;
+    return each * pixels * POINTS * 1e-6;
   }
 
   chooseDetail() {
-    if (this.nanoseconds.table === null) return;
-    const wanted = DETAILS.findIndex((_, i) => this.fineMilliseconds(i) < SLOWEST_FINE_MS);
-    const next = wanted < 0 ? DETAILS.length - 1 : wanted;
-    // Sharper again only where there is much room.
-    if (next < this.detail && this.fineMilliseconds(next) > SLOWEST_FINE_MS / 2) return;
-    if (next !== this.detail) {
-      this.detail = next;
-      this.fine?.release();
-      this.fine = null;
+    const before = { ...this.detail };
+    for (const [kind, slowest] of [['table', SLOWEST_TABLE_MS], ['ggx', SLOWEST_GGX_MS]]) {
+      const wanted = DETAILS.findIndex((_, i) => this.milliseconds(kind, i) < slowest);
+      const next = wanted < 0 ? DETAILS.length - 1 : wanted;
+      // Sharper again only where there is much room.
+      if (next > this.detail[kind] || this.milliseconds(kind, next) < slowest / 2) this.detail[kind] = next;
     }
+    if (before.table === this.detail.table && before.ggx === this.detail.ggx) return;
+    for (const picture of new Set([this.sharp, this.measured])) picture?.release();
+    this.sharp = this.measured = null;
   }
 
-  get fast() { return this.nanoseconds.table !== null && this.fineMilliseconds() < FRAME_MS; }
+  get fast() { return this.nanoseconds.table !== null && this.milliseconds('table') < FRAME_MS; }
 
   coarsePicture() {
     if (!this.coarse) {
@@ -150,9 +166,17 @@ class Stage {
     return this.coarse;
   }
 
-  finePicture() {
-    this.fine ??= new Picture(this.graphics, ...this.fineSize(), POINTS);
-    return this.fine;
+  // By the tables, as sharp as can be; and the one that GGX is sampled for: the same where that is
+  // fast enough.
+  sharpPicture() {
+    this.sharp ??= new Picture(this.graphics, ...this.sizeOf('table'), POINTS);
+    return this.sharp;
+  }
+  measuredPicture() {
+    const [width, height] = this.sizeOf('ggx');
+    if (this.sharpPicture().width === width && this.sharp.height === height) this.measured = this.sharp;
+    this.measured ??= new Picture(this.graphics, width, height, POINTS);
+    return this.measured;
   }
 
   // ---- Work ----
@@ -164,14 +188,16 @@ class Stage {
     if (!this.fast) {
       const coarse = this.coarsePicture();
       if (!coarse.ready) return this.tableJob(coarse);
-      if (this.needsGgx && coarse.samples < 4 && !this.fine?.samples)
+      if (this.needsGgx && coarse.samples < 4 && !this.measured?.samples)
         return this.ggxJob(coarse, coarse.samples === 0 ? 1 : 3);
       if (this.moving) return null;
     }
-    const fine = this.finePicture();
-    if (!fine.ready) return this.tableJob(fine);
+    const sharp = this.sharpPicture();
+    if (!sharp.ready) return this.tableJob(sharp);
+    const measured = this.measuredPicture();
+    if (!measured.ready) return this.tableJob(measured);
     if (this.finished) return null;
-    return this.ggxJob(fine, clamp(fine.samples, 1, MOST_A_PASS));
+    return this.ggxJob(measured, clamp(measured.samples, 1, MOST_A_PASS));
   }
 
   tableJob(picture) {
@@ -198,7 +224,7 @@ class Stage {
     const { picture, kind } = job, known = this.nanoseconds[kind];
     const rows = known === null ? 8 : Math.floor(milliseconds * 1e6 / (known * job.cost));
     const band = clamp(rows, 1, picture.height - picture.row);
-    this.graphics.use(job.program, { ...job.values, picture_size: [picture.width, picture.height] });
+    this.graphics.use(job.program, { ...job.values, picture: this.squareOf(picture.width, picture.height) });
     const began = performance.now();
     this.graphics.draw(job.target, picture.width, picture.height, picture.row, band);
     this.graphics.read(job.target, 0, 1, 1, picture.row);  // waits
@@ -233,11 +259,11 @@ class Stage {
   }
 
   afterPass({ picture, kind }) {
-    const isFine = picture === this.fine;
     this.stale = true;
-    if (kind === 'table' && picture.ready && (isFine || !this.fine?.ready)) this.measureTable(picture);
-    if (kind === 'ggx' && !isFine) this.measureCoarse(picture);
-    if (kind === 'ggx' && isFine && Number.isInteger(Math.log2(picture.samples))) this.measureError();
+    if (kind === 'table' && picture.ready) this.measureTable(picture);
+    if (kind === 'ggx' && picture === this.coarse) this.measureCoarse(picture);
+    if (kind === 'ggx' && picture === this.measured && Number.isInteger(Math.log2(picture.samples)))
+      this.measureError();
   }
 
   // ---- Figures ----
@@ -255,12 +281,13 @@ class Stage {
     this.bound = this.boundOf(picture, [a], g, this.weightOf(picture));
   }
 
-  // The picture is the middle square of what is drawn.
+  // Within the square alone: what is to its sides depends on the window.
   eachOfObject(picture, cover, visit) {
-    const { width, height } = picture, side = Math.min(width, height);
-    const left = (width - side) >> 1, below = (height - side) >> 1;
-    for (let y = below; y < below + side; ++y)
-      for (let x = left; x < left + side; ++x) {
+    const { width, height } = picture, [x0, y0, side] = this.squareOf(width, height);
+    const from = (middle) => Math.max(Math.round(middle - side / 2), 0);
+    const to = (middle, most) => Math.min(Math.round(middle + side / 2), most);
+    for (let y = from(y0); y < to(y0, height); ++y)
+      for (let x = from(x0); x < to(x0, width); ++x) {
         const at = 4 * (y * width + x);
         if (cover[at + 3] > 0) visit(at);
       }
@@ -308,7 +335,7 @@ class Stage {
   }
 
   measureError() {
-    const picture = this.fine, { graphics } = this;
+    const picture = this.measured, { graphics } = this;
     const tables = picture.tables.map((target) => graphics.read(target));
     const ggx = [0, 1].map((i) => graphics.read(picture.ggx[picture.front], i));
     const weight = this.weightOf(picture);
@@ -336,18 +363,19 @@ class Stage {
 
   // The best picture there is; null where none is whole.
   shownPicture() {
-    const whole = (picture) => picture?.ready && (!this.needsGgx || picture.samples > 0);
-    return [this.fine, this.coarse].find(whole) ?? null;
+    const best = this.needsGgx ? [this.measured, this.coarse] : [this.sharp, this.measured, this.coarse];
+    return best.find((picture) => picture?.ready && (!this.needsGgx || picture.samples > 0)) ?? null;
   }
 
   present() {
     const picture = this.shownPicture();
     if (!picture) return;
-    const { graphics, canvas, state } = this, ggx = picture.ggx[picture.front].textures;
+    const { graphics, canvas, state } = this;
+    const ggx = (picture.samples ? picture.ggx[picture.front] : picture.tables[0]).textures;
     graphics.use(graphics.program('present', state), {
-      ...this.uniforms, picture_size: [picture.width, picture.height],
+      ...this.uniforms, picture: this.squareOf(canvas.width, canvas.height),
       canvas_size: [canvas.width, canvas.height], table_a: picture.tables[0].textures[0],
-      table_b: picture.tables.at(-1).textures[0], ggx_0: ggx[0], ggx_1: ggx[1],
+      table_b: picture.tables.at(-1).textures[0], ggx_0: ggx[0], ggx_1: ggx.at(-1),
       scale_colors: graphics.colors, ggx_weight: this.weightOf(picture),
       view: VIEWS.indexOf(state.view), divider: state.split * canvas.width, exposure: this.exposure, bound: this.bound ?? 1,
       stage_inner: [0.020, 0.021, 0.024], stage_outer: [0.0045, 0.005, 0.006] });
@@ -363,7 +391,7 @@ class Stage {
     const { graphics, canvas } = this;
     const size = [canvas.width, canvas.height];
     graphics.use(graphics.program('probe', this.state),
-                 { ...this.uniforms, picture_size: size, pointer: [x * size[0], y * size[1]] });
+                 { ...this.uniforms, picture: this.squareOf(...size), pointer: [x * size[0], y * size[1]] });
     graphics.draw(this.probed, 6, 1);
     const values = graphics.read(this.probed);
     const texel = (i) => [...values.subarray(4 * i, 4 * i + 3)];
@@ -387,8 +415,7 @@ class Stage {
     const { graphics } = this;
     graphics.use(graphics.program('lobe', this.state, number),
                  { ...this.uniforms, ...this.tableUniforms(number), view,
-                   window_center: window.center, window_half: window.half, side: LOBE_TEXELS,
-                   picture_size: [1, 1] });
+                   window_center: window.center, window_half: window.half, side: LOBE_TEXELS });
     graphics.draw(this.lobes, 2 * LOBE_TEXELS, LOBE_TEXELS);
     const values = graphics.read(this.lobes), halves = [new Float32Array(LOBE_TEXELS ** 2), new Float32Array(LOBE_TEXELS ** 2)];
     for (let j = 0; j < LOBE_TEXELS; ++j)

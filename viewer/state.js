@@ -31,6 +31,7 @@ const PARAMETERS = {
   exposure: { least: 1e-3, most: 1e3, standard: 'auto', or: 'auto' },
   yaw: number(-180, 180, 0),
   pitch: number(-90, 90, 0),
+  zoom: number(0.3, 4, 1),
   split: number(0, 1, 0.5),
 };
 const PLACES = ['light_x', 'light_y', 'light_z'];

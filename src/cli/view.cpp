@@ -43,8 +43,8 @@ void view(const Arguments& arguments, Files& files) {
     viewed.push_back({names[i], &tables[i]});
   const std::string page = viewer_page(viewed);
   write_file(output, page);
-  print(fmt::format("wrote {}, {:.1f} MB: open it in a browser with WebGL 2\n",
-                    one_line(output), static_cast<double>(page.size()) / 1e6));
+  print(fmt::format("wrote {}, {:.1f} MB: open it in a browser with WebGL 2\n", one_line(output),
+                    static_cast<double>(page.size()) / 1e6));
 }
 
 }  // namespace

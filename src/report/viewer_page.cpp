@@ -26,13 +26,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view scripts[] = {"maths.js",    "state.js", "data.js",     "lights.js",
-                                        "graphics.js", "stage.js", "controls.js", "probe.js",
-                                        "main.js"};
+constexpr std::string_view scripts[] = {"maths.js",    "state.js",    "data.js",
+                                        "lights.js",   "graphics.js", "stage.js",
+                                        "controls.js", "probe.js",    "main.js"};
 constexpr std::string_view shaders[] = {
-    "ltc_lobe.glsl",   "ltc_polygon.glsl",    "ltc_disk.glsl", "ltc_line.glsl", "ltc_table.glsl",
-    "ltc_texture.glsl", "scene.glsl",         "table.glsl",    "ggx.glsl",      "table_main.glsl",
-    "ggx_main.glsl",   "present.glsl",        "probe_main.glsl", "lobe_main.glsl"};
+    "ltc_lobe.glsl",    "ltc_polygon.glsl", "ltc_disk.glsl",   "ltc_line.glsl", "ltc_table.glsl",
+    "ltc_texture.glsl", "scene.glsl",       "table.glsl",      "ggx.glsl",      "table_main.glsl",
+    "ggx_main.glsl",    "present.glsl",     "probe_main.glsl", "lobe_main.glsl"};
 
 // FNV-1a of 32 bits: tells a page that was cut or altered on its way.
 std::uint32_t checksum(std::string_view text) {
