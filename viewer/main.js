@@ -159,7 +159,7 @@ class Viewer {
     element('measured').classList.remove('stale');
     element('rmse').textContent = Number.isFinite(rmse) ? percent(rmse) : 'no light on it';
     element('noise').textContent = Number.isFinite(noise)
-      ? `of it noise of GGX ${percent(noise)}${noise > rmse / 5 ? ', much' : ''}; ${figures.samples} samples a pixel` : '';
+      ? `noise of GGX in it ${percent(noise)}${noise > rmse / 5 ? ', still much' : ''}` : '';
     element('done').style.width = figures.finished ? '100%' : `${100 * clamp(NOISE_WANTED / noise, 0, 1)}%`;
     this.probing = true;
   }

@@ -81,7 +81,7 @@ class Probe {
                                         : `--entry ${nearestEntry(table, lobe).join(',')}`]];
     if (values) {
       const [t, g] = [values.tables[number], values.ggx];
-      rows.push(['table, GGX', `${t.toFixed(4)}, ${g.toFixed(4)}`]);
+      rows.push(['table, GGX', `${t.toPrecision(3)}, ${g.toPrecision(3)}`]);
     }
     document.getElementById('entry').replaceChildren(...rows.map(([name, value]) => {
       const row = document.createElement('span'), label = document.createElement('i');
