@@ -84,7 +84,7 @@ class Controls {
       const value = key === 'exposure' && state.exposure === 'auto' ? exposure : state[key];
       range.value = scale.to(value);
       range.setAttribute('aria-valuetext', short(value) + unit);
-      if (document.activeElement !== text || state[key] !== 'auto') text.value = Number(value.toPrecision(4)) + unit;
+      text.value = Number(value.toPrecision(4)) + unit;
     }
     for (const key of Object.keys(CHOICES)) {
       const radio = element(`${key}-${state[key]}`);

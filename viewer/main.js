@@ -170,7 +170,9 @@ class Viewer {
       said.push('This browser does not filter 32-bit textures (OES_texture_float_linear): looked up by texels.');
     if (this.data.tables.some((table) => table.material))
       said.push('A field of one material: its roughness is its own.');
-    element('status').textContent = [...said, this.progress()].join(' ');
+    const text = [...said, this.progress()].join(' ');
+    // Readers of screens say it aloud: once.
+    if (element('status').textContent !== text) element('status').textContent = text;
     element('status').classList.toggle('warning', said.length > 0);
   }
 

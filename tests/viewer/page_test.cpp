@@ -106,10 +106,12 @@ TEST(ViewerPage, CountsWhatIsMissing) {
 TEST(ViewerPage, IsOfGgxAndOfOneTableOrTwo) {
   Table other = small_table();
   other.grid.model = &separable_ggx();
-  EXPECT_NE(message_of<InputError>([&] { page_of(other, "o.h5"); }).find("o.h5: a table of the BRDF"),
-            std::string::npos);
-  EXPECT_NE(message_of<InputError>([] { viewer_page({}); }).find("0 tables to view; expected 1 or 2"),
-            std::string::npos);
+  EXPECT_NE(
+      message_of<InputError>([&] { page_of(other, "o.h5"); }).find("o.h5: a table of the BRDF"),
+      std::string::npos);
+  EXPECT_NE(
+      message_of<InputError>([] { viewer_page({}); }).find("0 tables to view; expected 1 or 2"),
+      std::string::npos);
   EXPECT_THROW(viewer_file("none.js"), InputError);
 }
 
