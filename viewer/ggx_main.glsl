@@ -18,11 +18,21 @@ uint scrambled(uint x) {
 
 float on_unit(uint x) { return float(x >> 8u) * (1.0 / 16777216.0); }
 
-// The lattice of the plastic number, shifted: the whole numbers wrap as its fractions do.
-vec2 lattice(uint i, uvec2 shift) {
-  uvec2 x = shift + i * uvec2(3242174889u, 2447445414u);
-  return vec2(on_unit(x.x), on_unit(x.y));
+// The first two dimensions of Sobol's sequence: any power of two of its points, from its multiples
+// on, are spread evenly.
+uvec2 sobol(uint i) {
+  uvec2 point = uvec2(0);
+  uvec2 digit = uvec2(0x80000000u);
+  for (uint rest = i; rest != 0u; rest >>= 1u) {
+    if ((rest & 1u) != 0u) {
+      point ^= digit;
+    }
+    digit = uvec2(digit.x >> 1u, digit.y ^ (digit.y >> 1u));
+  }
+  return point;
 }
+
+vec2 on_square(uvec2 x) { return vec2(on_unit(x.x), on_unit(x.y)); }
 
 vec3 estimate(Ggx ggx, Source source, uint start) {
   uint a = scrambled(start);
@@ -31,9 +41,9 @@ vec3 estimate(Ggx ggx, Source source, uint start) {
   uint d = scrambled(c);
   vec3 sum = vec3(0);
   for (int i = 0; i < count; ++i) {
-    uint at = uint(first + i);
-    sum += of_lobe(ggx, source, lattice(at, uvec2(a, b)));
-    sum += of_light(ggx, source, lattice(at, uvec2(c, d)));
+    uvec2 point = sobol(uint(first + i));
+    sum += of_lobe(ggx, source, on_square(point ^ uvec2(a, b)));
+    sum += of_light(ggx, source, on_square(point ^ uvec2(c, d)));
   }
   return sum;
 }
