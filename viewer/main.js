@@ -11,11 +11,12 @@ class Viewer {
     this.canvas = element('picture');
     this.sentences = [];
     this.state = standardState(data.tables);
+    this.words();
+    // Throws where nothing can be drawn: then nothing can be set either.
+    this.begin();
     this.controls = new Controls(data, (key, value, moving) => this.set(key, value, moving));
     this.probe = new Probe(data);
-    this.words();
     this.listen();
-    this.begin();
     this.readFragment();
   }
 
@@ -206,7 +207,6 @@ class Viewer {
     this.listenToDivider(element('divider'));
     element('reset').addEventListener('click', () => this.change(standardState(this.data.tables), false));
     element('copy').addEventListener('click', () => this.copy());
-    element('theme').addEventListener('click', () => this.switchTheme());
   }
 
   placeOf(event) {
@@ -305,11 +305,6 @@ class Viewer {
     return done;
   }
 
-  switchTheme() {
-    const dark = getComputedStyle(document.documentElement).colorScheme.trim() === 'dark';
-    document.documentElement.dataset.theme = dark ? 'light' : 'dark';
-  }
-
   // ---- A context comes and goes ----
 
   lose(event) {
@@ -366,8 +361,15 @@ function fail(error) {
   element('status').classList.add('warning');
 }
 
+function switchTheme() {
+  const dark = getComputedStyle(document.documentElement).colorScheme.trim() === 'dark';
+  document.documentElement.dataset.theme = dark ? 'light' : 'dark';
+}
+
+element('theme').addEventListener('click', switchTheme);
 try {
   window.ltcViewer = new Viewer(readData()).hook();
 } catch (error) {
+  document.body.classList.add('off');
   fail(error);
 }
