@@ -47,7 +47,8 @@ class Stage {
     this.graphics = new Graphics(canvas, data);
     this.nanoseconds = { table: null, ggx: null };  // a point of a pixel; a sample of one
     this.detail = { table: 0, ggx: 0 };             // of DETAILS
-    this.fixed = null;  // a size that was asked for
+    this.drawn = new WeakSet();  // programs
+    this.fixed = null;           // a size that was asked for
     this.seed = 1;
     this.lobes = this.graphics.target(2 * LOBE_TEXELS, LOBE_TEXELS, 1);
     this.probed = this.graphics.target(6, 1, 1);
@@ -103,7 +104,7 @@ class Stage {
     this.figures = this.levels = null;
     this.stale = true;
     this.finished = false;
-    this.chooseDetail();
+    this.chosen = {};
     for (const picture of [this.sharp, this.measured, this.coarse]) picture?.restart();
   }
 
@@ -140,17 +141,14 @@ class Stage {
     return each * pixels * POINTS * 1e-6;
   }
 
-  chooseDetail() {
-    const before = { ...this.detail };
-    for (const [kind, slowest] of [['table', SLOWEST_TABLE_MS], ['ggx', SLOWEST_GGX_MS]]) {
-      const wanted = DETAILS.findIndex((_, i) => this.milliseconds(kind, i) < slowest);
-      const next = wanted < 0 ? DETAILS.length - 1 : wanted;
-      // Sharper again only where there is much room.
-      if (next > this.detail[kind] || this.milliseconds(kind, next) < slowest / 2) this.detail[kind] = next;
-    }
-    if (before.table === this.detail.table && before.ggx === this.detail.ggx) return;
-    for (const picture of new Set([this.sharp, this.measured])) picture?.release();
-    this.sharp = this.measured = null;
+  // Once for each picture begun, when most is known.
+  chooseDetail(kind, slowest) {
+    if (this.chosen[kind]) return;
+    this.chosen[kind] = true;
+    const wanted = DETAILS.findIndex((_, i) => this.milliseconds(kind, i) < slowest);
+    const next = wanted < 0 ? DETAILS.length - 1 : wanted;
+    // Sharper again only where there is much room.
+    if (next > this.detail[kind] || this.milliseconds(kind, next) < slowest / 2) this.detail[kind] = next;
   }
 
   get fast() { return this.nanoseconds.table !== null && this.milliseconds('table') < FRAME_MS; }
@@ -166,16 +164,32 @@ class Stage {
     return this.coarse;
   }
 
+  // The picture, or another of its size.
+  sized(picture, [width, height]) {
+    if (picture?.width === width && picture.height === height) return picture;
+    if (picture !== this.sharp) picture?.release();
+    return new Picture(this.graphics, width, height, POINTS);
+  }
+
   // By the tables, as sharp as can be; and the one that GGX is sampled for: the same where that is
   // fast enough.
   sharpPicture() {
-    this.sharp ??= new Picture(this.graphics, ...this.sizeOf('table'), POINTS);
-    return this.sharp;
+    this.chooseDetail('table', SLOWEST_TABLE_MS);
+    const before = this.sharp, next = this.sized(before, this.sizeOf('table'));
+    if (before && next !== before) {
+      before.release();
+      if (this.measured === before) this.measured = null;
+    }
+    this.sharp = next;
+    return next;
   }
   measuredPicture() {
-    const [width, height] = this.sizeOf('ggx');
-    if (this.sharpPicture().width === width && this.sharp.height === height) this.measured = this.sharp;
-    this.measured ??= new Picture(this.graphics, width, height, POINTS);
+    this.chooseDetail('ggx', SLOWEST_GGX_MS);
+    const size = this.sizeOf('ggx');
+    const same = this.sharp.width === size[0] && this.sharp.height === size[1];
+    if (same && this.measured !== this.sharp) this.measured?.release();
+    if (!same && this.measured === this.sharp) this.measured = null;
+    this.measured = same ? this.sharp : this.sized(this.measured, size);
     return this.measured;
   }
 
@@ -221,14 +235,17 @@ class Stage {
 
   // Some rows, as many as fit into the time; true when the job is done.
   runBand(job, milliseconds) {
-    const { picture, kind } = job, known = this.nanoseconds[kind];
-    const rows = known === null ? 8 : Math.floor(milliseconds * 1e6 / (known * job.cost));
+    const { picture, kind } = job, known = this.nanoseconds[kind] ?? 1000;
+    const compiled = this.drawn.has(job.program);
+    const rows = compiled ? Math.floor(milliseconds * 1e6 / (known * job.cost)) : 4;
     const band = clamp(rows, 1, picture.height - picture.row);
     this.graphics.use(job.program, { ...job.values, picture: this.squareOf(picture.width, picture.height) });
     const began = performance.now();
     this.graphics.draw(job.target, picture.width, picture.height, picture.row, band);
     this.graphics.read(job.target, 0, 1, 1, picture.row);  // waits
-    this.measure(kind, (performance.now() - began) * 1e6 / (job.cost * band));
+    // The first draw compiles, and is no measure.
+    if (compiled) this.measure(kind, performance.now() - began, job.cost * band);
+    this.drawn.add(job.program);
     picture.row += band;
     if (picture.row < picture.height) return false;
     picture.row = 0;
@@ -237,15 +254,11 @@ class Stage {
     return true;
   }
 
-  // The first draw compiles, and is no measure.
-  measure(kind, nanoseconds) {
-    this.drawn ??= {};
-    if (!this.drawn[kind]) {
-      this.drawn[kind] = true;
-      return;
-    }
-    const known = this.nanoseconds[kind];
-    this.nanoseconds[kind] = known === null ? nanoseconds : 0.8 * known + 0.2 * nanoseconds;
+  // What takes no time is mostly waiting: a bound from above.
+  measure(kind, milliseconds, work) {
+    const each = milliseconds * 1e6 / work, known = this.nanoseconds[kind];
+    if (known === null || each < known) this.nanoseconds[kind] = each;
+    else if (milliseconds > 4) this.nanoseconds[kind] = 0.8 * known + 0.2 * each;
   }
 
   // Works for one frame; returns whether there is more to do.
