@@ -11,7 +11,8 @@ const SLIDERS = {
   alpha_y: { label: 'α<sub>y</sub>', say: 'alpha y', scale: root, step: 0.005 },
   roughness: { label: 'roughness', scale: linear, step: 0.005 },
   anisotropy: { label: 'anisotropy', scale: linear, step: 0.005 },
-  rotation: { label: 'rotation', say: 'rotation of the tangent frame, degrees', scale: linear, step: 1, unit: '°' },
+  rotation: { label: 'rotation', say: 'rotation of the tangent frame, degrees', scale: linear,
+              step: 1, unit: '°' },
   f0: { label: 'F<sub>0</sub>', say: 'F 0', scale: linear, step: 0.01 },
   light_size: { label: 'size', say: 'light size', scale: root, step: 0.01 },
   light_x: { label: 'x', say: 'light x', scale: linear, step: 0.05, span: [-4, 4] },
@@ -23,7 +24,8 @@ const CHOICES = {
   view: { table: 'Table', table_b: 'Table B', ggx: 'GGX', difference: 'Difference',
           difference_b: 'Difference B', split: 'Split' },
   shape: { sphere: 'Sphere', plane: 'Plane', sheet: 'Sheet' },
-  light: { rectangle: 'Rectangle', star: 'Star', disk: 'Disk', sphere: 'Sphere', line: 'Line', picture: 'Picture' },
+  light: { rectangle: 'Rectangle', star: 'Star', disk: 'Disk', sphere: 'Sphere', line: 'Line',
+           picture: 'Picture' },
   lookup: { exact: 'by texels, exact', filter: 'by the texture unit' },
   metal: Object.fromEntries(Object.keys(METALS).map((name) => [name, name])),
 };
@@ -47,10 +49,12 @@ class Controls {
     holder.className = 'slider';
     holder.innerHTML = `<label for="${key}">${label}</label>` +
       `<input type="range" id="${key}" min="${low}" max="${high}" step="${step}">` +
-      `<input type="text" inputmode="decimal" id="${key}-number" autocomplete="off" aria-label="${say ?? key}, as a number">`;
+      `<input type="text" inputmode="decimal" id="${key}-number" autocomplete="off" ` +
+      `aria-label="${say ?? key}, as a number">`;
     const [, range, text] = holder.children;
     if (say) range.setAttribute('aria-label', say);
-    const slide = (moving) => this.change(key, clamp(Number(short(scale.from(Number(range.value)))), least, most), moving);
+    const value = () => clamp(Number(short(scale.from(Number(range.value)))), least, most);
+    const slide = (moving) => this.change(key, value(), moving);
     range.addEventListener('input', () => slide(true));
     range.addEventListener('change', () => slide(false));
     text.addEventListener('change', () => this.change(key, text.value.trim().replace(unit, ''), false));
@@ -90,10 +94,12 @@ class Controls {
       const radio = element(`${key}-${state[key]}`);
       if (radio) radio.checked = true;
     }
-    for (const select of document.querySelectorAll('select[data-key]')) select.value = state[select.dataset.key];
+    for (const select of document.querySelectorAll('select[data-key]'))
+      select.value = state[select.dataset.key];
     element('gltf').checked = state.gltf;
     element('auto').checked = state.exposure === 'auto';
-    for (const part of document.querySelectorAll('[data-gltf]')) part.hidden = (part.dataset.gltf === 'true') !== state.gltf;
+    for (const part of document.querySelectorAll('[data-gltf]'))
+      part.hidden = (part.dataset.gltf === 'true') !== state.gltf;
     this.lockMaterial();
   }
 

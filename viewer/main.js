@@ -36,7 +36,8 @@ class Viewer {
       const line = document.createElement('p'), name = document.createElement('b');
       name.textContent = (this.data.tables.length > 1 ? `${'AB'[i]}: ` : '') + table.name;
       line.append(name, ` ${text(table)}`);
-      if (table.missing) line.append(`; ${table.missing} entries are missing: the nearest stand for them`);
+      if (table.missing)
+        line.append(`; ${table.missing} entries are missing: the nearest stand for them`);
       return line;
     }));
     element('version').textContent = this.data.version;
@@ -52,9 +53,12 @@ class Viewer {
   // ---- State ----
 
   set(key, value, moving) {
-    if (key === 'gltf') return value === this.state.gltf || this.change(withOtherRoughness(this.state), moving);
-    if (key === 'auto')
-      return this.change({ ...this.state, exposure: value ? 'auto' : Number(short(this.stage.exposure)) }, moving);
+    if (key === 'gltf')
+      return value === this.state.gltf || this.change(withOtherRoughness(this.state), moving);
+    if (key === 'auto') {
+      const exposure = value ? 'auto' : Number(short(this.stage.exposure));
+      return this.change({ ...this.state, exposure }, moving);
+    }
     const taken = valueOf(key, String(value));
     if (taken === undefined) {
       this.sentences = [refusalOf(key, value, this.state)];
@@ -63,7 +67,8 @@ class Viewer {
     }
     const next = { ...this.state, [key]: taken };
     // A light that stands where it does by default goes where the shape has it.
-    if (key === 'shape' && PLACES.every((place) => this.state[place] === standardOf(place, this.state.shape)))
+    const isStandard = (place) => this.state[place] === standardOf(place, this.state.shape);
+    if (key === 'shape' && PLACES.every(isStandard))
       PLACES.forEach((place) => { next[place] = standardOf(place, taken); });
     this.change(next, moving);
   }
@@ -142,9 +147,13 @@ class Viewer {
 
   presented(exposure, bound) {
     if (this.state.exposure === 'auto') this.controls.exposureIs(exposure);
-    if (bound) [element('legend-least').textContent, element('legend-most').textContent] = [`−${bound}`, `+${bound}`];
-    this.canvas.setAttribute('aria-label', `${CHOICES.view[this.state.view]}: ${this.state.shape} under a light, ` +
-      `${this.state.light}. Arrow keys turn it.`);
+    if (bound) {
+      element('legend-least').textContent = `−${bound}`;
+      element('legend-most').textContent = `+${bound}`;
+    }
+    const { view, shape, light } = this.state;
+    this.canvas.setAttribute('aria-label',
+      `${CHOICES.view[view]}: ${shape} under a light, ${light}. Arrow keys turn it.`);
   }
 
   tellFigures() {
@@ -167,8 +176,10 @@ class Viewer {
 
   tell() {
     const said = [...this.notes, ...this.sentences, faultOfLight(this.state)].filter(Boolean);
-    if (this.state.lookup === 'filter' && this.data.tables.some((table) => !table.field && !table.filtered))
-      said.push('This browser does not filter 32-bit textures (OES_texture_float_linear): looked up by texels.');
+    const unfiltered = this.data.tables.some((table) => !table.field && !table.filtered);
+    if (this.state.lookup === 'filter' && unfiltered)
+      said.push('This browser does not filter 32-bit textures (OES_texture_float_linear): looked up ' +
+        'by texels.');
     if (this.data.tables.some((table) => table.material))
       said.push('A field of one material: its roughness is its own.');
     const text = [...said, this.progress()].join(' ');
@@ -242,12 +253,14 @@ class Viewer {
   turnTo(yaw, pitch) {
     const around = (yaw + 540) % 360 - 180;
     const [low, high] = this.state.shape === 'sphere' ? [-86, 86] : [-26, 56];
-    this.change({ ...this.state, yaw: Number(short(around)), pitch: Number(short(clamp(pitch, low, high))) }, true);
+    const [yawNow, pitchNow] = [around, clamp(pitch, low, high)].map((x) => Number(short(x)));
+    this.change({ ...this.state, yaw: yawNow, pitch: pitchNow }, true);
   }
 
   zoomBy(factor) {
     const { least, most } = PARAMETERS.zoom;
-    this.change({ ...this.state, zoom: Number(clamp(this.state.zoom * factor, least, most).toPrecision(3)) }, true);
+    const zoom = clamp(this.state.zoom * factor, least, most);
+    this.change({ ...this.state, zoom: Number(zoom.toPrecision(3)) }, true);
   }
 
   wheel(event) {
@@ -291,7 +304,8 @@ class Viewer {
       await navigator.clipboard.writeText(location.href);
       this.say('The link is copied.');
     } catch {
-      this.say(this.copyByHand() ? 'The link is copied.' : `The browser copies nothing; the link is ${location.href}`);
+      this.say(this.copyByHand() ? 'The link is copied.'
+        : `The browser copies nothing; the link is ${location.href}`);
     }
   }
 
@@ -310,7 +324,8 @@ class Viewer {
   lose(event) {
     event.preventDefault();
     this.lost = true;
-    showMessage('The browser took the graphics context away. The picture comes back when it gives it back; if not, reload the page.');
+    showMessage('The browser took the graphics context away. The picture comes back when it gives ' +
+      'it back; if not, reload the page.');
     element('status').textContent = 'The graphics context is lost.';
   }
 

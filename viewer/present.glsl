@@ -4,6 +4,7 @@
 // the light's lit side.
 
 uniform sampler2D table_a, table_b, ggx_0, ggx_1, scale_colors;
+uniform sampler2D outline;  // the sharpest picture's: how much the object covers
 uniform float ggx_weight;  // 1 over the samples of both sums; 0: none yet
 uniform int view;          // 0 A, 1 B, 2 GGX, 3 A - GGX, 4 B - GGX, 5 A and GGX beside each other
 uniform float divider;     // of 5, pixels from the left
@@ -59,7 +60,9 @@ void main() {
   vec4 shown = view == 1 || view == 4 ? b : view == 2 || right ? ggx : a;
   vec3 light = vec3(0);
   float lit = 0.0;
-  float cover = a.w;
+  float cover = texture(outline, at).w;
+  // Of a coarser picture, edges as sharp as the outline.
+  shown.xyz *= shown.w > 0.02 ? min(cover / shown.w, 4.0) : 1.0;
   for (int i = 0; i < 4; ++i) {
     vec2 pixel = (floor(gl_FragCoord.xy) + vec2(0.25 + 0.5 * float(i % 2), 0.25 + 0.5 * float(i / 2)));
     vec3 ray = ray_at(pixel);
@@ -76,7 +79,8 @@ void main() {
   vec3 color;
   if (view == 3 || view == 4) {
     // Divided by the cover, so that edges are not paler than what is within.
-    float d = dot(shown.xyz - ggx.xyz, vec3(1.0 / 3.0)) / max(a.w, 1e-3);
+    vec3 table = (view == 3 ? a : b).xyz;
+    float d = dot(table - ggx.xyz, vec3(1.0 / 3.0)) / max(a.w, 1e-3);
     vec3 scaled = texture(scale_colors, vec2(0.5 + 0.5 * clamp(d / bound, -1.0, 1.0), 0.5)).xyz;
     color = mix(encoded(behind), scaled, cover);
     color = mix(color, encoded(min(light, vec3(1))), lit * 0.35);

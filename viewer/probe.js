@@ -54,12 +54,13 @@ class Probe {
   constructor(data) {
     this.data = data;
     this.canvases = ['lobe-ggx', 'lobe-table'].map((id) => document.getElementById(id));
-    this.canvases.forEach((canvas) => Object.assign(canvas, { width: LOBE_TEXELS, height: LOBE_TEXELS }));
+    for (const canvas of this.canvases) canvas.width = canvas.height = LOBE_TEXELS;
     this.empty();
   }
 
   empty() {
-    document.getElementById('entry').textContent = 'Point at the object, or move the cross with Shift and the arrow keys.';
+    document.getElementById('entry').textContent =
+      'Point at the object, or move the cross with Shift and the arrow keys.';
     document.getElementById('lobes').hidden = true;
   }
 

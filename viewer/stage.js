@@ -17,6 +17,9 @@ const POINTS = 4;
 // What of the canvas lies under words, pixels of the page: the picture is the largest square between.
 const ABOVE = 58, BELOW = 40;
 
+// Of the colours of a texel.
+const meanOf = (values, at) => (values[at] + values[at + 1] + values[at + 2]) / 3;
+
 // How far a picture is. `passes` of GGX are whole ones.
 class Picture {
   constructor(graphics, width, height, points) {
@@ -324,8 +327,7 @@ class Stage {
     const magnitudes = [];
     for (const table of tables)
       this.eachOfObject(picture, table, (at) => {
-        const g = weight * (ggx[0][at] + ggx[1][at] + ggx[0][at + 1] + ggx[1][at + 1] + ggx[0][at + 2] + ggx[1][at + 2]);
-        magnitudes.push(Math.abs(table[at] + table[at + 1] + table[at + 2] - g) / 3);
+        magnitudes.push(Math.abs(meanOf(table, at) - weight * (meanOf(ggx[0], at) + meanOf(ggx[1], at))));
       });
     return roundedUp(quantile(magnitudes, NEARLY_ALL));
   }
@@ -333,10 +335,9 @@ class Stage {
   // As sphere_error of src/render/sphere_images.cpp has it; of colours, their means.
   errorOf(picture, table, ggx, weight) {
     let pixels = 0, mean = 0, squares = 0, variance = 0;
-    const mean3 = (values, at) => (values[at] + values[at + 1] + values[at + 2]) / 3;
     this.eachOfObject(picture, table, (at) => {
-      const first = weight * mean3(ggx[0], at), second = weight * mean3(ggx[1], at);
-      const d = mean3(table, at) - (first + second);
+      const first = weight * meanOf(ggx[0], at), second = weight * meanOf(ggx[1], at);
+      const d = meanOf(table, at) - (first + second);
       ++pixels;
       mean += first + second;
       squares += d * d;
@@ -384,13 +385,17 @@ class Stage {
     const picture = this.shownPicture();
     if (!picture) return;
     const { graphics, canvas, state } = this;
+    const sharp = this.sharp?.ready ? this.sharp : picture;
+    // Differences are of pixels that both have.
+    const tables = (state.view.startsWith('difference') ? picture : sharp).tables;
     const ggx = (picture.samples ? picture.ggx[picture.front] : picture.tables[0]).textures;
     graphics.use(graphics.program('present', state), {
       ...this.uniforms, picture: this.squareOf(canvas.width, canvas.height),
-      canvas_size: [canvas.width, canvas.height], table_a: picture.tables[0].textures[0],
-      table_b: picture.tables.at(-1).textures[0], ggx_0: ggx[0], ggx_1: ggx.at(-1),
-      scale_colors: graphics.colors, ggx_weight: this.weightOf(picture),
-      view: VIEWS.indexOf(state.view), divider: state.split * canvas.width, exposure: this.exposure, bound: this.bound ?? 1,
+      canvas_size: [canvas.width, canvas.height], table_a: tables[0].textures[0],
+      table_b: tables.at(-1).textures[0], outline: sharp.tables[0].textures[0],
+      ggx_0: ggx[0], ggx_1: ggx.at(-1), ggx_weight: this.weightOf(picture),
+      scale_colors: graphics.colors, view: VIEWS.indexOf(state.view),
+      divider: state.split * canvas.width, exposure: this.exposure, bound: this.bound ?? 1,
       stage_inner: [0.020, 0.021, 0.024], stage_outer: [0.0045, 0.005, 0.006] });
     graphics.draw(null, canvas.width, canvas.height);
     this.stale = false;
@@ -419,7 +424,7 @@ class Stage {
     const { tables, ggx, weight, picture } = this.figures;
     const at = 4 * (Math.min(Math.floor(y * picture.height), picture.height - 1) * picture.width +
                     Math.min(Math.floor(x * picture.width), picture.width - 1));
-    const mean = (values) => (values[at] + values[at + 1] + values[at + 2]) / 3;
+    const mean = (values) => meanOf(values, at);
     return { tables: tables.map(mean), ggx: weight * (mean(ggx[0]) + mean(ggx[1])) };
   }
 
@@ -430,10 +435,10 @@ class Stage {
                  { ...this.uniforms, ...this.tableUniforms(number), view,
                    window_center: window.center, window_half: window.half, side: LOBE_TEXELS });
     graphics.draw(this.lobes, 2 * LOBE_TEXELS, LOBE_TEXELS);
-    const values = graphics.read(this.lobes), halves = [new Float32Array(LOBE_TEXELS ** 2), new Float32Array(LOBE_TEXELS ** 2)];
-    for (let j = 0; j < LOBE_TEXELS; ++j)
-      for (let i = 0; i < 2 * LOBE_TEXELS; ++i)
-        halves[i < LOBE_TEXELS ? 0 : 1][j * LOBE_TEXELS + i % LOBE_TEXELS] = values[4 * (j * 2 * LOBE_TEXELS + i)];
-    return halves;
+    const values = graphics.read(this.lobes);
+    return [0, 1].map((half) => Float32Array.from({ length: LOBE_TEXELS ** 2 }, (_, i) => {
+      const row = Math.floor(i / LOBE_TEXELS);
+      return values[4 * ((2 * row + half) * LOBE_TEXELS + i % LOBE_TEXELS)];
+    }));
   }
 }
