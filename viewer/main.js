@@ -73,13 +73,27 @@ class Viewer {
     this.change(next, moving);
   }
 
+  // The address follows when things stand still: browsers count how often it changes.
   change(next, moving) {
     this.state = next;
     this.sentences = [];
     this.show(moving);
-    const fragment = fragmentOf(next, this.data.tables);
-    const address = location.href.replace(/#.*$/, '') + (fragment ? `#${fragment}` : '#');
+    if (!moving) this.writeAddress();
+  }
+
+  writeAddress() {
+    const fragment = fragmentOf(this.state, this.data.tables);
+    if (fragment === location.hash.slice(1)) return;
+    const address = `${location.href.replace(/#.*$/, '')}#${fragment}`;
     try { history.replaceState(null, '', address); } catch { location.replace(address); }
+  }
+
+  // Nothing has moved for a while.
+  settle() {
+    clearTimeout(this.settling);
+    this.stage.settle();
+    this.writeAddress();
+    this.wake();
   }
 
   readFragment() {
@@ -92,7 +106,7 @@ class Viewer {
   show(moving) {
     if (!this.stage) return;
     clearTimeout(this.settling);
-    if (moving) this.settling = setTimeout(() => { this.stage.settle(); this.wake(); }, SETTLE_MS);
+    if (moving) this.settling = setTimeout(() => this.settle(), SETTLE_MS);
     const changed = this.attempt(() => this.stage.show(this.state, moving));
     this.controls.follow(this.state, this.stage.exposure);
     element('divider').hidden = this.state.view !== 'split';
@@ -246,8 +260,7 @@ class Viewer {
 
   letGo() {
     this.held = null;
-    this.stage.settle();
-    this.wake();
+    this.settle();
   }
 
   turnTo(yaw, pitch) {

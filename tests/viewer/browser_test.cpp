@@ -302,28 +302,20 @@ TEST_F(Viewer, EveryControlLandsInTheAddress) {
     steps.push_back({{"until", "ltcViewer.state().ready || " + message_text}});
   }
   for (const json& step :
-       {done("document.getElementById('divider').focus()"),
-        key("ArrowRight"),
-        evaluated("divider", fragment_now),
-        done("document.getElementById('picture').focus()"),
-        key("ArrowRight"),
-        key("ArrowUp"),
-        evaluated("keys", fragment_now),
-        json{{"mouse", {"mousePressed", 250, 300}}},
-        json{{"drag", {300, 300}}},
-        json{{"mouse", {"mouseReleased", 300, 300}}},
-        evaluated("drag", fragment_now),
-        done(click("auto")),
-        evaluated("auto", fragment_now),
-        done(click("copy")),
+       {done("document.getElementById('divider').focus()"), key("ArrowRight"),
+        evaluated("divider", fragment_now), done("document.getElementById('picture').focus()"),
+        key("ArrowRight"), key("ArrowUp"),
+        // The address follows when nothing moves any more.
+        json{{"until", "location.hash.includes('pitch')"}}, evaluated("keys", fragment_now),
+        json{{"mouse", {"mousePressed", 250, 300}}}, json{{"drag", {300, 300}}},
+        json{{"mouse", {"mouseReleased", 300, 300}}}, evaluated("drag", fragment_now),
+        done(click("auto")), evaluated("auto", fragment_now), done(click("copy")),
         json{{"until", status_text + ".includes('link is')"}},
         evaluated("theme before", "getComputedStyle(document.body).backgroundColor"),
         done(click("theme")),
         evaluated("theme after", "getComputedStyle(document.body).backgroundColor"),
-        done(click("reset")),
-        evaluated("reset", fragment_now),
-        evaluated("alphas", "ltcViewer.state().alphas"),
-        evaluated("message", message_text)})
+        done(click("reset")), evaluated("reset", fragment_now),
+        evaluated("alphas", "ltcViewer.state().alphas"), evaluated("message", message_text)})
     steps.push_back(step);
   const json results = drive(steps);
   EXPECT_EQ(results["errors"], json::array());
@@ -463,6 +455,60 @@ TEST_F(Viewer, WhatABrowserLacksIsToldAndGoneAround) {
                                  evaluated("text", message_text)});
   EXPECT_EQ(unfiltered["text"], "");
   EXPECT_GT(unfiltered["middle"].get<double>(), 0.01);
+}
+
+TEST_F(Viewer, SumsAreOfSixteenBitsWhereThirtyTwoAreRefused) {
+  write_page({{"nodes", &nodes_}});
+  const json results = drive({window_size,
+                              without("['EXT_color_buffer_float']"),
+                              opened(""),
+                              {{"until", "window.ltcViewer || " + message_text}},
+                              evaluated("text", message_text),
+                              evaluated("status", status_text)});
+  // Where the browser has no halfs either, that is what it says.
+  const std::string said =
+      results["text"].get<std::string>() + results["status"].get<std::string>();
+  EXPECT_NE(said.find("EXT_color_buffer_float"), std::string::npos) << said;
+  EXPECT_EQ(results["errors"], json::array());
+}
+
+TEST_F(Viewer, ATableThatIsTooLargeForTheBrowserIsTold) {
+  write_page({{"nodes", &nodes_}});
+  const json results =
+      drive({{{"before",
+               "const ask = WebGL2RenderingContext.prototype.getParameter; "
+               "WebGL2RenderingContext.prototype.getParameter = function (name) { return name === "
+               "WebGL2RenderingContext.MAX_3D_TEXTURE_SIZE ? 16 : ask.call(this, name); };"}},
+             opened(""),
+             {{"until", message_text}},
+             evaluated("text", message_text)});
+  EXPECT_NE(results["text"].get<std::string>().find(
+                "nodes is 3 x 3 x 27 texels; this browser's 3-D textures have at most 16 a side"),
+            std::string::npos)
+      << results["text"];
+  EXPECT_EQ(results["errors"], json::array());
+}
+
+TEST_F(Viewer, AFieldOfOneMaterialShowsThatAlone) {
+  Field field = testing::synthetic_field();
+  field.material = {0.3, 0.1};
+  const Table table = table_of_field(field, Grid::paper(2), Storage::matrix, {1, nullptr});
+  write_page({{"metal", &table}});
+  const json results = drive({window_size,
+                              opened(""),
+                              is_there,
+                              done("ltcViewer.fix([24, 24])"),
+                              {{"until", "ltcViewer.state().ready || " + message_text}},
+                              evaluated("alphas", "ltcViewer.state().alphas"),
+                              evaluated("status", status_text),
+                              evaluated("locked", "document.getElementById('alpha_x').disabled"),
+                              evaluated("middle", "ltcViewer.pixels(0)[4 * (24 * 16 + 14)]")});
+  EXPECT_EQ(results["alphas"], (json{0.3, 0.1}));
+  EXPECT_EQ(results["locked"], true);
+  EXPECT_NE(results["status"].get<std::string>().find("A field of one material"),
+            std::string::npos);
+  EXPECT_GT(results["middle"].get<double>(), 0.001);
+  EXPECT_EQ(results["errors"], json::array());
 }
 
 TEST_F(Viewer, ALostContextIsToldAndComesBack) {
