@@ -10,6 +10,7 @@ class Viewer {
     this.data = data;
     this.canvas = element('picture');
     this.sentences = [];
+    this.fingers = new Map();  // on the picture, and where
     this.state = standardState(data.tables);
     this.words();
     // Throws where nothing can be drawn: then nothing can be set either.
@@ -225,8 +226,8 @@ class Viewer {
     this.canvas.addEventListener('webglcontextrestored', () => this.restore());
     this.canvas.addEventListener('pointerdown', (event) => this.grab(event));
     this.canvas.addEventListener('pointermove', (event) => this.move(event));
-    this.canvas.addEventListener('pointerup', () => this.letGo());
-    this.canvas.addEventListener('pointercancel', () => this.letGo());
+    this.canvas.addEventListener('pointerup', (event) => this.letGo(event));
+    this.canvas.addEventListener('pointercancel', (event) => this.letGo(event));
     this.canvas.addEventListener('keydown', (event) => this.key(event));
     this.canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     this.listenToDivider(element('divider'));
@@ -239,7 +240,9 @@ class Viewer {
     return [(event.clientX - box.left) / box.width, 1 - (event.clientY - box.top) / box.height];
   }
 
+  // Two fingers zoom.
   grab(event) {
+    this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
     this.held = { x: event.clientX, y: event.clientY, yaw: this.state.yaw, pitch: this.state.pitch };
     this.canvas.setPointerCapture(event.pointerId);
     this.place = this.placeOf(event);
@@ -253,12 +256,25 @@ class Viewer {
       this.probing = true;
       return this.wake();
     }
+    if (this.fingers.size > 1) return this.pinch(event);
     const degrees = 180 / this.canvas.clientHeight;
     this.turnTo(this.held.yaw - (event.clientX - this.held.x) * degrees,
                 this.held.pitch + (event.clientY - this.held.y) * degrees);
   }
 
-  letGo() {
+  pinch(event) {
+    const apart = () => {
+      const [a, b] = [...this.fingers.values()];
+      return Math.max(Math.hypot(a[0] - b[0], a[1] - b[1]), 1);
+    };
+    const before = apart();
+    this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    this.zoomBy(apart() / before);
+  }
+
+  // What was pinched does not turn with the finger that stays.
+  letGo(event) {
+    this.fingers.delete(event.pointerId);
     this.held = null;
     this.settle();
   }

@@ -48,6 +48,7 @@ TEST(Help, NamesEveryCommandAndFitsTheTerminal) {
   }
   EXPECT_NE(run_ltcfit({"diff", "-h"}).out.find("Usage: ltcfit diff [OPTION]... A B\n"),
             std::string::npos);
+  EXPECT_NE(run_ltcfit({"view", "-h"}).out.find("[OPTION]... TABLE [TABLE_B]\n"), std::string::npos);
 }
 
 // A terminal of its own, so many columns wide.
