@@ -19,13 +19,8 @@ const mean = (values) => values.reduce((sum, x) => sum + x, 0) / values.length;
 const pixelsInside = (coverage, size) => [...coverage.keys()].filter((i) =>
   [-1, 0, 1].every((x) => [-1, 0, 1].every((y) => coverage[i + x + size * y] === 1)));
 
-function parametersOf({ roughness, anisotropy, rotation }, { f0, mistake }) {
-  return {
-    color: [f0, f0, f0], metalness: 1, anisotropy,
-    roughness: mistake === 'alpha' ? Math.sqrt(roughness) : roughness,
-    anisotropyRotation: rotation * Math.PI / 180 + (mistake === 'axes' ? Math.PI / 2 : 0)
-  };
-}
+const parametersOf = ({ roughness, anisotropy, rotation }, { f0 }) =>
+  ({ color: [f0, f0, f0], metalness: 1, roughness, anisotropy, anisotropyRotation: rotation * Math.PI / 180 });
 
 async function compare(material, asked, { webgl, webgpu }) {
   const { channels } = await readExr(await fetched(`/made/${material.image}`));
@@ -41,38 +36,42 @@ async function compare(material, asked, { webgl, webgpu }) {
   const figures = {
     ...material, reference_mean,
     noise: mean(inside.map((i) => channels['standard_error.Y'][i])) / reference_mean,
-    error: { three: error(images.three) }, error_of_ltcfit: {}, webgl_from_ltcfit: {}, webgpu_from_ltcfit: {},
-    webgpu_from_webgl: {}
+    error: { three: error(images.three) }, error_of_ltcfit: {}, rays_from_ltcfit: {}, webgl_from_ltcfit: {},
+    webgpu_from_ltcfit: {}, webgpu_from_webgl: {}
   };
   for (const by of ['table', 'field']) {
     images[by] = await webgl.draw(parameters, by);
     figures.error[by] = error(images[by]);
     figures.error_of_ltcfit[by] = error(reference[by]);
     figures.webgl_from_ltcfit[by] = largest(images[by], reference[by]);
+    figures.rays_from_ltcfit[by] = largest(await webgl.draw(parameters, by, { rays: true }), reference[by]);
     if (!webgpu) continue;
     const image = await webgpu.draw(parameters, by);
     figures.webgpu_from_ltcfit[by] = largest(image, reference[by]);
     figures.webgpu_from_webgl[by] = largest(image, images[by]);
   }
-  return { ggx, covered, inside, images, figures };
+  return { ggx, covered, inside, reference, images, figures };
 }
 
-// What else a material may have: how far WebGPU is from WebGL, and what it changes.
-async function compareVariants(material, asked, { webgl, webgpu }, inside) {
+// What else a material may have, and mistakes that must be seen: what they change, and how far WebGPU
+// is from WebGL.
+async function compareVariants(material, asked, { webgl, webgpu }, { inside, reference }) {
+  const parameters = parametersOf(material, asked);
   const variants = {
+    'roughness for alpha': [{ roughness: Math.sqrt(parameters.roughness) }],
+    'axes exchanged': [{ anisotropyRotation: parameters.anisotropyRotation + Math.PI / 2 }],
     dielectric: [{ metalness: 0 }], 'half a metal': [{ metalness: 0.5 }], isotropic: [{ anisotropy: 0 }],
     'less specular': [{ metalness: 0, specularIntensity: 0.5 }],
     clearcoat: [{ clearcoat: 1, clearcoatRoughness: 0.4 }],
-    'texture unit': [{}, 'filtered'], widened: [{}, 'table', true]
+    'texture unit': [{}, 'filtered'], widened: [{}, 'table', { widen: true }]
   };
-  const parameters = parametersOf(material, asked), plain = await webgl.draw(parameters, 'table');
   const largest = (a, b) => Math.max(...inside.map((i) => Math.abs(a[i] - b[i])));
   const figures = {};
-  for (const [name, [more, by = 'table', widen]] of Object.entries(variants)) {
-    const image = await webgl.draw({ ...parameters, ...more }, by, widen);
-    figures[name] = { from_plain: largest(image, plain) };
+  for (const [name, [more, by = 'table', options]] of Object.entries(variants)) {
+    const image = await webgl.draw({ ...parameters, ...more }, by, options);
+    figures[name] = { from_ltcfit: largest(image, reference.table) };
     if (!webgpu) continue;
-    const other = await webgpu.draw({ ...parameters, ...more }, by, widen);
+    const other = await webgpu.draw({ ...parameters, ...more }, by, options);
     figures[name].webgpu_from_webgl = largest(other, image);
   }
   return figures;
@@ -98,7 +97,7 @@ try {
     .catch((error) => { result.without_webgpu = error.message; });
   const rows = [];
   for (const material of asked.materials) rows.push(await compare(material, asked, by));
-  if (asked.variants) result.variants = await compareVariants(asked.materials[0], asked, by, rows[0].inside);
+  if (asked.variants) result.variants = await compareVariants(asked.materials[0], asked, by, rows[0]);
   Object.assign(result, { three: REVISION, f0, size, light_size, spheres: rows.map(({ figures }) => figures) });
   result.picture = draw(rows.map(shown), {
     size, sphereShare, title: `Anisotropic spheres under a RectAreaLight, three.js r${REVISION}`,

@@ -12,8 +12,7 @@ import { attempt, fail, showPage, temporaryFolder } from './chromium.js';
 
 const usage = `usage: node anisotropic-run.js TABLE.h5 FIELD.json [-o PICTURE.png] [--json FILE]
            [--material ROUGHNESS,ANISOTROPY[,DEGREES]]... [--f0 X] [--light-size S]
-           [--size PIXELS] [--samples N] [--ltcfit PROGRAM] [--variants]
-           [--mistake alpha|axes]`;
+           [--size PIXELS] [--samples N] [--ltcfit PROGRAM] [--variants]`;
 const folder = fileURLToPath(new URL('.', import.meta.url));
 
 // As glTF and three.js have it. ltcfit's sphere has x along the parallels, so that a quarter of a
@@ -37,8 +36,7 @@ function readArguments() {
     material: { type: 'string', multiple: true, default: ['0.3,0.7', '0.3,0.7,90', '0.5,0.5', '0.2,0.4'] },
     f0: { type: 'string', default: '1' }, 'light-size': { type: 'string', default: '1' },
     size: { type: 'string', default: '200' }, samples: { type: 'string', default: '2048' },
-    ltcfit: { type: 'string', default: 'ltcfit' }, mistake: { type: 'string' },
-    variants: { type: 'boolean' }
+    ltcfit: { type: 'string', default: 'ltcfit' }, variants: { type: 'boolean', default: false }
   } });
   const number = (name, least, most, step) => {
     const text = values[name];
@@ -47,15 +45,12 @@ function readArguments() {
                       (step > 1 ? `, multiples of ${step}` : ''));
     return Number(text);
   };
-  if (![undefined, 'alpha', 'axes'].includes(values.mistake))
-    throw new Error(`--mistake is ${values.mistake}; allowed: alpha, axes`);
   if (positionals.length !== 2) throw new Error(usage);
   return {
     table: positionals[0], field: positionals[1], output: values.output, json: values.json,
     materials: values.material.map(readMaterial), f0: number('f0', 0, 1),
     light_size: number('light-size', 0.01, 2), size: number('size', 16, 1000, 8),
-    samples: number('samples', 16, 1e6, 1), ltcfit: values.ltcfit, mistake: values.mistake,
-    variants: values.variants
+    samples: number('samples', 16, 1e6, 1), ltcfit: values.ltcfit, variants: values.variants
   };
 }
 
@@ -97,12 +92,13 @@ function report({ spheres, three, variants = {}, without_webgpu }) {
   for (const { roughness, anisotropy, rotation, error, noise } of spheres)
     line([roughness, anisotropy, rotation, ...[error.three, error.table, error.field, noise].map(percent)]);
   console.log("\nlargest difference from ltcfit render, of the light's radiance");
-  line(['alpha_x', 'alpha_y', 'WebGL table', 'field', 'WebGPU table', 'field']);
-  for (const { alpha_x, alpha_y, webgl_from_ltcfit: webgl, webgpu_from_ltcfit: webgpu } of spheres)
-    line([...[alpha_x, alpha_y].map((x) => Number(x.toPrecision(3))),
-          ...[webgl.table, webgl.field, webgpu.table, webgpu.field].map(apart)]);
-  for (const [name, { from_plain, webgpu_from_webgl }] of Object.entries(variants))
-    console.log(`${name}: changes ${apart(from_plain)}, WebGPU from WebGL ${apart(webgpu_from_webgl)}`);
+  line(['alpha_x', 'alpha_y', 'rays, table', 'field', 'WebGL table', 'field', 'WebGPU table', 'field']);
+  for (const s of spheres)
+    line([...[s.alpha_x, s.alpha_y].map((x) => Number(x.toPrecision(3))),
+          ...[s.rays_from_ltcfit, s.webgl_from_ltcfit, s.webgpu_from_ltcfit]
+            .flatMap(({ table, field }) => [table, field].map(apart))]);
+  for (const [name, { from_ltcfit, webgpu_from_webgl }] of Object.entries(variants))
+    console.log(`${name}: ${apart(from_ltcfit)}, WebGPU from WebGL ${apart(webgpu_from_webgl)}`);
   if (without_webgpu) console.log(`no WebGPU: ${without_webgpu}`);
 }
 

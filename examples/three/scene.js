@@ -10,7 +10,7 @@ import { RectAreaLightUniformsLib } from 'three/addons/lights/RectAreaLightUnifo
 
 export { REVISION } from 'three';
 export const sphereShare = 0.94;  // of the picture's width and height
-const cameraDistance = 6;
+export const cameraDistance = 6;
 const mostNodes = 128;
 
 // In place of the formula for polygons: the sum over points of the rectangle of a point light there,
