@@ -98,7 +98,8 @@ function report({ spheres, three, variants = {}, without_webgpu }) {
           ...[s.rays_from_ltcfit, s.webgl_from_ltcfit, s.webgpu_from_ltcfit]
             .flatMap(({ table, field }) => [table, field].map(apart))]);
   for (const [name, { from_ltcfit, webgpu_from_webgl }] of Object.entries(variants))
-    console.log(`${name}: ${apart(from_ltcfit)} from the first by ltcfit render, WebGPU from WebGL ${apart(webgpu_from_webgl)}`);
+    console.log(`${name}: ${apart(from_ltcfit)} from the first by ltcfit render, ` +
+                `WebGPU from WebGL ${apart(webgpu_from_webgl)}`);
   if (without_webgpu) console.log(`no WebGPU: ${without_webgpu}`);
 }
 
