@@ -25,7 +25,12 @@ function roundedUp(value) {
   return decade * [1, 2, 5, 10].find((step) => value <= step * decade);
 }
 
-export function draw(rows, { three, size, f0, light_size }, sphereShare, table) {
+export const percent = (x) => `${(100 * x).toFixed(1)} %`;
+
+// rows: images of radiances from the topmost line on, `ggx` and two to judge, whether a pixel is
+// `covered` by the sphere, and what stands at the left. Of the whole: size in pixels, sphereShare,
+// title, the columns' heads, and the lines below.
+export function draw(rows, { size, sphereShare, title, heads, below }) {
   const canvas = document.createElement('canvas'), context = canvas.getContext('2d');
   const columns = [0, 1.4, 0.7, 1.4, 0.7];  // gaps before them, in em
   const lefts = [];
@@ -43,23 +48,19 @@ export function draw(rows, { three, size, f0, light_size }, sphereShare, table) 
   };
   const image = (x, y, color) => {
     const data = context.createImageData(size, size);
-    for (let row = 0; row < size; ++row)  // WebGL's first row is the lowest
-      for (let column = 0; column < size; ++column)
-        data.data.set([...color(4 * ((size - 1 - row) * size + column)), 255],
-                      4 * (row * size + column));
+    for (let i = 0; i < size * size; ++i) data.data.set([...color(i), 255], 4 * i);
     context.putImageData(data, x, y);
   };
 
-  write(`Spheres under a RectAreaLight, three.js r${three}`, 14, 31, { bold: true, scale: 1.3 });
-  ['GGX, integrated', 'its own table', 'difference', 'given table', 'difference'].forEach(
-    (head, i) => write(head, lefts[i] + size / 2, 59, { bold: true, align: 'center' }));
-  rows.forEach(({ ggx, inside, images, figures }, index) => {
+  write(title, 14, 31, { bold: true, scale: 1.3 });
+  heads.forEach((head, i) => write(head, lefts[i] + size / 2, 59, { bold: true, align: 'center' }));
+  rows.forEach(({ ggx, images, covered, head, lines }, index) => {
     const y = top + index * step;
+    const inside = [...ggx.keys()].filter((i) => covered[i]);
     const exposure = 0.9 / nearlyLargest(inside.map((i) => ggx[i]));
     const bound = roundedUp(nearlyLargest(
-      Object.values(images).flatMap((shown) => inside.map((i) => Math.abs(shown[i] - ggx[i])))));
-    const sphere = (x, shown) =>
-      image(x, y, (i) => grey(ggx[i + 3] > 0 ? exposure * shown[i] : 0.02));
+      images.flatMap((shown) => inside.map((i) => Math.abs(shown[i] - ggx[i])))));
+    const sphere = (x, shown) => image(x, y, (i) => grey(covered[i] ? exposure * shown[i] : 0.02));
     const difference = (x, shown) => {
       image(x, y, (i) => differenceColor(0.5 + (shown[i] - ggx[i]) / (2 * bound)));
       context.strokeStyle = faint;
@@ -68,17 +69,14 @@ export function draw(rows, { three, size, f0, light_size }, sphereShare, table) 
       context.stroke();
     };
     sphere(lefts[0], ggx);
-    sphere(lefts[1], images.own);
-    difference(lefts[2], images.own);
-    sphere(lefts[3], images.given);
-    difference(lefts[4], images.given);
+    images.forEach((shown, i) => {
+      sphere(lefts[1 + 2 * i], shown);
+      difference(lefts[2 + 2 * i], shown);
+    });
 
-    const percent = (x) => `${(100 * x).toFixed(1)} %`;
-    write(`roughness ${figures.roughness}`, 14, y + 14, { bold: true });
-    [`shown ${exposure.toPrecision(2)} × as bright`, '',
-     'its own table', `mean |error| ${percent(figures.own)}`, `lobes alone ${percent(figures.own_lobes)}`, '',
-     'given table', `mean |error| ${percent(figures.given)}`, `lobes alone ${percent(figures.given_lobes)}`
-    ].forEach((line, i) => write(line, 14, y + 30 + 13 * i, { scale: 0.8, color: faint }));
+    write(head, 14, y + 14, { bold: true });
+    [`shown ${exposure.toPrecision(2)} × as bright`, '', ...lines].forEach(
+      (line, i) => write(line, 14, y + 30 + 13 * i, { scale: 0.8, color: faint }));
 
     for (let row = 0; row < size; ++row) {
       context.fillStyle = `rgb(${differenceColor(1 - row / (size - 1)).map(Math.round)})`;
@@ -88,10 +86,8 @@ export function draw(rows, { three, size, f0, light_size }, sphereShare, table) 
       write(String(Number((part * bound).toPrecision(2))).replace('-', '−'), barLeft + 1.4 * em,
             y + (1 - part) / 2 * (size - 9) + 8, { scale: 0.8 });
   });
-  const below = top + rows.length * step;
-  const light = [2.2, 1.4].map((side) => Number((side * light_size).toPrecision(3))).join(' × ');
-  write(`Metal, F0 = ${f0}; light ${light}, sphere of radius 1. Errors over the mean of GGX; lobes ` +
-        "alone: integrated, without three.js' formula for polygons.", 14, below + 14);
-  write(`Differences from GGX are in units of the light's radiance. Given: ${table}`, 14, below + 31);
+  below.forEach((line, i) => write(line, 14, top + rows.length * step + 14 + 17 * i));
   return canvas.toDataURL();
 }
+
+export const sides = (size) => [2.2, 1.4].map((side) => Number((side * size).toPrecision(3))).join(' × ');

@@ -2,31 +2,16 @@
 // Copyright (c) 2026 the ltcfit authors
 // Renders with three.js in Chromium (or $CHROMIUM), by its own table and by the given one; prints how
 // far both are from GGX. Exit codes: 1 the page or the browser failed, 2 bad arguments, 3 a file.
-import { spawn } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
-import { tmpdir } from 'node:os';
-import { extname, join } from 'node:path';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { attempt, fail, showPage } from './chromium.js';
 
 const usage = `usage: node run.js TABLE.js [-o PICTURE.png] [--json FILE] [--roughness R,R,...]
                    [--light-size S] [--size PIXELS]`;
 const folder = fileURLToPath(new URL('.', import.meta.url));
 const replaced = '/given/examples/jsm/lights/RectAreaLightTexturesLib.js';
-
-function fail(code, message) {
-  console.error(`run.js: ${message}`);
-  process.exit(code);
-}
-
-function attempt(code, work) {
-  try {
-    return work();
-  } catch (error) {
-    return fail(code, error.message);
-  }
-}
 
 function readArguments() {
   const { values, positionals } = parseArgs({ allowPositionals: true, options: {
@@ -63,51 +48,17 @@ function report({ spheres, three }) {
       .map((x) => `${(100 * x).toFixed(2)} %`)]);
 }
 
-// Chromium leaves in its own time, so that nothing writes to its profile when that is removed.
-function end(result) {
-  browser.removeAllListeners('exit').on('exit', () => finish(result)).kill();
-}
-
 function finish({ errors, picture, ...figures }) {
-  if (errors.length) fail(1, errors.join('\n'));
   report(figures);
   attempt(3, () => {
     if (asked.output) writeFileSync(asked.output, Buffer.from(picture.split(',')[1], 'base64'));
     if (asked.json) writeFileSync(asked.json, JSON.stringify(figures, null, 2) + '\n');
   });
-  process.exit(0);
-}
-
-function serve(request, response) {
-  const { pathname } = new URL(request.url, 'http://localhost');
-  if (request.method === 'POST') {
-    let body = '';
-    request.on('data', (part) => { body += part; }).on('end', () => end(JSON.parse(body)));
-    return;
-  }
-  try {
-    const bytes = answer(pathname);
-    const type = extname(pathname) === '.html' ? 'text/html' : 'text/javascript';
-    response.writeHead(200, { 'Content-Type': type }).end(bytes);
-  } catch {
-    response.writeHead(404).end();
-  }
 }
 
 const asked = attempt(2, readArguments);
 const table = attempt(3, () => readFileSync(asked.table));
 if (!existsSync(join(folder, 'node_modules/three'))) fail(1, 'no three.js: npm ci --prefix examples/three');
-let browser;
-const profile = mkdtempSync(join(tmpdir(), 'ltcfit-three-'));
-process.on('exit', () => rmSync(profile, { recursive: true, force: true, maxRetries: 9 }));
-const server = createServer(serve).listen(0, '127.0.0.1', () => {
-  const { roughness, size, 'light-size': lightSize } = asked;
-  const query = new URLSearchParams({ roughness, size, lightSize, table: asked.table });
-  browser = spawn(process.env.CHROMIUM ?? 'chromium', [
-    '--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader', '--disable-gpu-watchdog', `--user-data-dir=${profile}`,
-    `http://127.0.0.1:${server.address().port}/index.html?${query}`], { stdio: 'ignore' });
-  browser.on('error', (error) => fail(1, `no Chromium: ${error.message}`));
-  browser.on('exit', (code) => fail(1, `Chromium ended with ${code}`));
-  setTimeout(() => end({ errors: ['the page did not end within 20 minutes'] }), 1_200_000);
-});
+const { roughness, size, 'light-size': lightSize } = asked;
+const query = new URLSearchParams({ roughness, size, lightSize, table: asked.table });
+showPage(`index.html?${query}`, answer, finish);

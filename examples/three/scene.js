@@ -10,7 +10,7 @@ import { RectAreaLightUniformsLib } from 'three/addons/lights/RectAreaLightUnifo
 
 export { REVISION } from 'three';
 export const sphereShare = 0.94;  // of the picture's width and height
-const cameraDistance = 6;
+export const cameraDistance = 6;
 const mostNodes = 128;
 
 // In place of the formula for polygons: the sum over points of the rectangle of a point light there,
@@ -70,6 +70,21 @@ function quadrature(count) {
 const nodesFor = (roughness, lightSize) =>
   Math.min(mostNodes, Math.max(24, Math.round(1.4 * lightSize / roughness ** 2)));
 
+// The camera and the light of `ltcfit render`.
+export function makeCamera() {
+  const halfAngle = Math.atan(1 / (Math.sqrt(cameraDistance ** 2 - 1) * sphereShare));
+  const camera = new PerspectiveCamera(halfAngle * 360 / Math.PI, 1, 1, 10);
+  camera.position.z = cameraDistance;
+  return camera;
+}
+
+export function makeLight(size) {
+  const light = new RectAreaLight('white', 1, 2.2 * size, 1.4 * size);
+  light.position.set(1, 1.5, 2.1);
+  light.lookAt(0, 0, 0);
+  return light;
+}
+
 export class Sphere {
   constructor(size, f0, lightSize) {
     RectAreaLightUniformsLib.init();
@@ -80,12 +95,7 @@ export class Sphere {
     this.renderer = new WebGLRenderer();
     this.renderer.setClearAlpha(0);
     this.target = new WebGLRenderTarget(size, size, { type: FloatType });
-    const halfAngle = Math.atan(1 / (Math.sqrt(cameraDistance ** 2 - 1) * sphereShare));
-    this.camera = new PerspectiveCamera(halfAngle * 360 / Math.PI, 1, 1, 10);
-    this.camera.position.z = cameraDistance;
-    const light = new RectAreaLight('white', 1, 2.2 * lightSize, 1.4 * lightSize);
-    light.position.set(1, 1.5, 2.1);
-    light.lookAt(0, 0, 0);
+    this.camera = makeCamera();
     const rendered = new MeshStandardMaterial({ metalness: 1 });
     rendered.color.setScalar(f0);
     this.uniforms = { nodes: { value: null }, count: { value: 0 } };
@@ -93,7 +103,7 @@ export class Sphere {
       rendered, ggx: this.integrated(rendered, 'ggx'), lobe: this.integrated(rendered, 'lobe')
     };
     this.mesh = new Mesh(new SphereGeometry(1, 512, 256));
-    this.scene = new Scene().add(this.mesh, light);
+    this.scene = new Scene().add(this.mesh, makeLight(lightSize));
   }
 
   integrated(rendered, radiance) {
