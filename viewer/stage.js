@@ -10,6 +10,7 @@ const FRAME_MS = 28;           // of drawing, between looks at the page
 const SLOWEST_TABLE_MS = 4000;  // what takes longer is made smaller: a table's picture,
 const SLOWEST_GGX_MS = 12000;   // and this many samples of GGX
 const GGX_SAMPLES = 64;
+const NOISE_TO_EXPOSE = 0.1;   // from where on GGX tells its own brightness
 const BRIGHTEST = 0.9;         // what nearly the brightest becomes, as in `ltcfit render`
 const NEARLY_ALL = 0.998;
 const DETAILS = [1, 0.75, 0.5, 0.35, 0.25];
@@ -358,7 +359,7 @@ class Stage {
     const samples = 2 * 2 * POINTS * picture.samples;
     this.finished = !(errors[0].noise > NOISE_WANTED) || picture.samples >= MOST_SAMPLES;
     this.bound = this.boundOf(picture, tables, ggx, weight);
-    if (errors[0].noise < 2 * NOISE_WANTED && this.levels)
+    if (errors[0].noise < NOISE_TO_EXPOSE && this.levels)
       this.levels.ggx = this.brightest(picture, ggx, weight);
     this.figures = { errors, samples, finished: this.finished, tables, ggx, weight, picture };
     this.heard.figures(this.figures);

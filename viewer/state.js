@@ -28,7 +28,7 @@ const PARAMETERS = {
   light_x: number(-10, 10, null),  // of the shape
   light_y: number(-10, 10, null),
   light_z: number(-10, 10, null),
-  exposure: { least: 1e-3, most: 1e3, standard: 'auto', or: 'auto' },
+  exposure: { least: 1e-6, most: 1e6, standard: 'auto', or: 'auto' },
   yaw: number(-180, 180, 0),
   pitch: number(-90, 90, 0),
   zoom: number(0.3, 4, 1),

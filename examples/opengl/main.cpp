@@ -97,6 +97,8 @@ void load_texture(const std::string& name) {
     throw std::runtime_error(name + " is no DDS");
   std::memcpy(header, bytes.data() + 4, sizeof header);
   const std::uint32_t height = header[2], width = header[3], depth = header[5];
+  if (depth < 3 || depth % 3 != 0)
+    throw std::runtime_error(name + " is no stack of three volumes: --as stacked");
   if (bytes.size() != 148 + std::size_t{16} * width * height * depth)
     throw std::runtime_error(name + " is no 3-D texture of 32-bit floats: --as stacked");
   GLuint texture = 0;

@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/output.h"
 #include "cli/progress.h"
 #include "core/parallel.h"
 #include "render/light_texture.h"
@@ -34,6 +35,7 @@ void prefilter(const Arguments& arguments) {
   // The last chance to stop.
   progress.throw_if_stopped();
   write_light_texture(levels, arguments.output, arguments.zstd);
+  print(fmt::format("wrote {}\n", one_line(arguments.output)));
 }
 
 Allowed power_of_two(std::size_t least, std::size_t most) {

@@ -57,7 +57,7 @@ Action declare_view(CLI::App& app) {
   allow(app.add_option("-o,--output", arguments->output,
                        "page to write, HTML that needs no other file and no network "
                        "[viewer.html]"),
-        not_empty("a file"))
+        {"a file that ends in .html", [](std::string& file) { return file.ends_with(".html"); }})
       ->type_name(std::string(value_kind::output))
       ->option_text("FILE")
       ->group("What to write");

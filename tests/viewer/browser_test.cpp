@@ -404,6 +404,17 @@ TEST_F(Viewer, TellsWhatLiesUnderThePointer) {
 
 // ---- What cannot work ----
 
+TEST_F(Viewer, ACutPageSaysSo) {
+  write_page({{"nodes.h5", &nodes_}});
+  const std::string page = read_file(folder_ / "page.html");
+  folder_.write("page.html", page.substr(0, page.size() - 1000));
+  const json results = drive({opened(""),
+                              {{"until", status_text + ".includes('cut')"}},
+                              evaluated("status", status_text)});
+  EXPECT_NE(results["status"].get<std::string>().find("its script is not whole"),
+            std::string::npos);
+}
+
 TEST_F(Viewer, DamagedValuesAreNamed) {
   write_page({{"nodes.h5", &nodes_}});
   std::string page = read_file(folder_ / "page.html");
