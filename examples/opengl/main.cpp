@@ -169,6 +169,31 @@ void write_png(const Image& image, const std::string& name) {
     throw std::runtime_error("cannot write " + name);
 }
 
+// Each sphere against the first: the root mean square of the difference over the mean, and the
+// largest, of the light.
+void print_errors(const Image& image, int columns, std::size_t spheres) {
+  const auto pixel = [&](std::size_t sphere, int x, int y) {
+    const int i = static_cast<int>(sphere);
+    const int row = image.height - sphere_size * (1 + i / columns) + y;
+    return &image.values[std::size_t{4} * static_cast<std::size_t>(
+                                              row * image.width + sphere_size * (i % columns) + x)];
+  };
+  for (std::size_t sphere = 1; sphere < spheres; ++sphere) {
+    double sum = 0, squares = 0, largest = 0, count = 0;
+    for (int y = 0; y < sphere_size; ++y)
+      for (int x = 0; x < sphere_size; ++x) {
+        const float* const right = pixel(0, x, y);
+        const double off = pixel(sphere, x, y)[0] - right[0];
+        sum += right[0];
+        squares += off * off;
+        largest = std::max(largest, std::abs(off));
+        count += right[3] > 0;
+      }
+    std::cout << "mistake " << sphere << ": off by " << std::sqrt(squares * count) / sum * 100
+              << " % of the mean, at most " << largest << " of the light\n";
+  }
+}
+
 void run(std::vector<std::string> arguments) {
   std::string raw;
   std::vector<Sphere> spheres = {
@@ -197,6 +222,8 @@ void run(std::vector<std::string> arguments) {
   load_texture(arguments[0]);
   const Image image = draw(program, spheres, columns);
   write_png(image, arguments[3]);
+  if (spheres.back().mistake > 0)
+    print_errors(image, columns, spheres.size());
   if (!raw.empty())
     std::ofstream(raw, std::ios::binary)
         .write(reinterpret_cast<const char*>(image.values.data()),
