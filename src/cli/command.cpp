@@ -15,6 +15,7 @@ Action declare_diff(CLI::App& app);
 Action declare_validate(CLI::App& app);
 Action declare_bench(CLI::App& app);
 Action declare_render(CLI::App& app);
+Action declare_view(CLI::App& app);
 Action declare_convert(CLI::App& app);
 Action declare_bake(CLI::App& app);
 Action declare_lookup(CLI::App& app);
@@ -49,6 +50,8 @@ std::span<const Command> commands() {
        "fit at the extremes from good and bad starts, and count what fails", declare_stress},
       {"render", "Compare and validate tables",
        "render spheres and sheets with a table and with sampled GGX", declare_render},
+      {"view", "Compare and validate tables",
+       "make a page in which to look at tables under lights, beside GGX", declare_view},
       {"convert", "Use tables", "write a table in another format or layout", declare_convert},
       {"bake", "Use tables", "make a table of any grid from a field", declare_bake},
       {"lookup", "Use tables", "print what a table gives for the lobes of a file", declare_lookup},

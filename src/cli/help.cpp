@@ -62,7 +62,7 @@ std::string usage_text(const CLI::App& app) {
   std::string text = app.get_name() + " [OPTION]...";
   for (const CLI::Option* option : app.get_options())
     if (option->get_positional())
-      text += " " + option->get_name();
+      text += option->get_required() ? " " + option->get_name() : " [" + option->get_name() + "]";
   return text;
 }
 

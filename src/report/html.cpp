@@ -11,7 +11,6 @@
 #include "report/page_style.h"
 
 namespace ltc::html {
-namespace {
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits =
@@ -28,8 +27,6 @@ std::string base64(std::string_view bytes) {
   }
   return text;
 }
-
-}  // namespace
 
 std::string escaped(std::string_view text) {
   std::string result;

@@ -15,6 +15,9 @@ namespace ltc::html {
 // Text with &, <, >, " and ' as entities, and bytes that no page may hold replaced: XML reads it.
 std::string escaped(std::string_view text);
 
+// Bytes as a data URL has them.
+std::string base64(std::string_view bytes);
+
 // A picture with its words; `text` is what is read aloud instead of it. Both plain text.
 std::string figure(const picture::Canvas& picture, std::string_view text,
                    std::string_view caption = {});

@@ -13,9 +13,9 @@
 namespace ltc::test {
 namespace {
 
-const std::vector<std::string> all_commands = {"generate", "fit",       "diff",       "validate",
-                                               "bench",    "stress",    "render",     "convert",
-                                               "lookup",   "prefilter", "completion", "man"};
+const std::vector<std::string> all_commands = {
+    "generate", "fit",     "diff",   "validate",  "bench",      "stress", "render",
+    "view",     "convert", "lookup", "prefilter", "completion", "man"};
 
 TEST(Wrap, BreaksBetweenWordsAlone) {
   EXPECT_EQ(cli::wrapped("a bb ccc", 80, 0, 0), "a bb ccc");
@@ -48,6 +48,8 @@ TEST(Help, NamesEveryCommandAndFitsTheTerminal) {
     EXPECT_EQ(result.out.find("\nOptions:"), std::string::npos) << result.out;
   }
   EXPECT_NE(run_ltcfit({"diff", "-h"}).out.find("Usage: ltcfit diff [OPTION]... A B\n"),
+            std::string::npos);
+  EXPECT_NE(run_ltcfit({"view", "-h"}).out.find("[OPTION]... TABLE [TABLE_B]\n"),
             std::string::npos);
 }
 
