@@ -45,8 +45,9 @@ HeldOutJudge node_judge(const QualitySettings& settings, std::size_t flat) {
 
 // By judge_pair, which holds one direction at a time: what set_lobe would keep of all of them is
 // megabytes, and asking the system for them anew for every lobe takes as long as the judging.
-double relative_loss(HeldOutJudge judge, const Lobe& lobe, const Eigen::Matrix3d& matrix) {
-  const PairJudgement judgement = judge.judge_pair(lobe, matrix, matrix);
+double relative_loss(HeldOutJudge judge, const Lobe& lobe, const Eigen::Matrix3d& matrix,
+                     const Fold& fold = {}, const Creases& creases = {}) {
+  const PairJudgement judgement = judge.judge_pair(lobe, matrix, matrix, fold, creases);
   return judgement.loss_a / judgement.spread;
 }
 
@@ -61,8 +62,11 @@ QueryQuality judge_query(const Table& table, const QualitySettings& settings,
   if (state != QueryState::judged)
     return left_out(state);
   area_light.set_lobe(floor.lobe, query);
-  return {QueryState::judged, relative_loss(query_judge(settings, query), floor.lobe, found.matrix),
-          area_light.error(found.matrix), area_light.error(found.matrix, found.amplitude),
+  return {QueryState::judged,
+          relative_loss(query_judge(settings, query), floor.lobe, found.matrix, found.fold,
+                        found.creases),
+          area_light.error(found.matrix, std::nullopt, found.fold, found.creases),
+          area_light.error(found.matrix, found.amplitude, found.fold, found.creases),
           share_below_horizon(found.matrix)};
 }
 

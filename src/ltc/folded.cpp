@@ -143,7 +143,7 @@ Vector3d unfolded(const Vector3d& p, const Fold& fold, const Creases& creases) {
   return unfolded_in(piece_at(p, fold, creases), p, fold);
 }
 
-FoldedLobe::FoldedLobe(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases)
+FoldedCosine::FoldedCosine(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases)
     : matrix_(matrix),
       inverse_(matrix.inverse()),
       inverse_determinant_(inverse_.determinant()),
@@ -160,7 +160,7 @@ FoldedLobe::FoldedLobe(const Eigen::Matrix3d& matrix, const Fold& fold, const Cr
         fold.k, fold.g));
 }
 
-double FoldedLobe::density(const Vector3d& omega) const {
+double FoldedCosine::density(const Vector3d& omega) const {
   const Vector3d p = inverse_ * omega;
   const Piece piece = piece_at(p, fold_, creases_);
   const Vector3d o = unfolded_in(piece, p, fold_);
@@ -169,12 +169,12 @@ double FoldedLobe::density(const Vector3d& omega) const {
          ((1 - fold_.g * piece.sum) * length * length * length);
 }
 
-Vector3d FoldedLobe::sample(double u_height, double u_azimuth) const {
+Vector3d FoldedCosine::sample(double u_height, double u_azimuth) const {
   const Vector3d o = sample_original(Original::clamped_cosine, u_height, u_azimuth);
   return (matrix_ * folded(o, fold_, creases_)).normalized();
 }
 
-double FoldedLobe::integrate_polygon(std::span<const Vector3d> vertices) const {
+double FoldedCosine::integrate_polygon(std::span<const Vector3d> vertices) const {
   std::vector<Vector3d> transformed;
   transformed.reserve(vertices.size());
   for (const Vector3d& vertex : vertices)

@@ -44,11 +44,11 @@ Eigen::Vector3d folded(const Eigen::Vector3d& p, const Fold& fold, const Creases
 Eigen::Vector3d unfolded(const Eigen::Vector3d& p, const Fold& fold, const Creases& creases);
 
 // The distribution of M fold(omega_o)/|M fold(omega_o)|. M is known up to a factor.
-class FoldedLobe {
+class FoldedCosine {
  public:
   // Throws InputError for a matrix that is not finite or has no inverse, creases that are not
   // finite, negative or not increasing, and a fold that is not one to one.
-  FoldedLobe(const Eigen::Matrix3d& matrix, const Fold& fold,
+  FoldedCosine(const Eigen::Matrix3d& matrix, const Fold& fold,
              const Creases& creases = usual_creases);
 
   // Density per steradian at a unit direction: max(z, 0)/(pi |p|^4 |det M| (1 - g H)) with p the

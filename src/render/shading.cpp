@@ -190,7 +190,8 @@ double fetched(const Eigen::Matrix3d& matrix, const Light& light) {
 
 }  // namespace
 
-double ltc_share(const Eigen::Matrix3d& matrix, const Light& light) {
+double ltc_share(const Eigen::Matrix3d& matrix, const Light& light, const Fold& fold,
+                 const Creases& creases) {
   if (!is_seen(light))
     return 0;
   if (light.shape == LightShape::line) {
@@ -205,7 +206,8 @@ double ltc_share(const Eigen::Matrix3d& matrix, const Light& light) {
   }
   // Seen from behind it turns the other way.
   return std::abs(
-      LinearlyTransformed(matrix).integrate_polygon(clip_to_upper_hemisphere(light.corners())));
+      FoldedCosine(matrix, fold, creases)
+          .integrate_polygon(clip_to_upper_hemisphere(light.corners())));
 }
 
 double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light& light) {
@@ -213,7 +215,7 @@ double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light
   const double albedo = f0 * found.amplitude + (1 - f0) * found.fresnel;
   if (!found.matrix.allFinite() || found.matrix.determinant() == 0 || !std::isfinite(albedo))
     return std::numeric_limits<double>::quiet_NaN();
-  const double share = ltc_share(found.matrix, light);
+  const double share = ltc_share(found.matrix, light, found.fold, found.creases);
   return share > 0 ? albedo * share * fetched(found.matrix, light) : 0;
 }
 

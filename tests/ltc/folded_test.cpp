@@ -118,7 +118,7 @@ TEST(Folded, UnfoldsWhatItFolds) {
 TEST(Folded, DensityIntegratesToOne) {
   const int heights = 600, azimuths = 1200;
   for (const Shape& shape : shapes) {
-    const FoldedLobe lobe(some_matrix(), shape.fold, shape.creases);
+    const FoldedCosine lobe(some_matrix(), shape.fold, shape.creases);
     double mass = 0;
     for (int i = 0; i < heights; ++i)
       for (int j = 0; j < azimuths; ++j) {
@@ -137,7 +137,7 @@ TEST(Folded, PolygonsAreExact) {
   for (const Shape& shape : shapes)
     for (int i = 0; i < 300; ++i) {
       const auto vertices = polygon_around(random, 0.1 + 1.5 * random.uniform());
-      const FoldedLobe lobe(some_matrix(), shape.fold, shape.creases);
+      const FoldedCosine lobe(some_matrix(), shape.fold, shape.creases);
       EXPECT_NEAR(lobe.integrate_polygon(vertices), by_pieces(some_matrix(), shape, vertices),
                   1e-13)
           << shape.fold.k << " " << shape.fold.g << " " << i;
@@ -147,7 +147,7 @@ TEST(Folded, PolygonsAreExact) {
 // All of the sphere by the eight octants: each light's share adds up to 1.
 TEST(Folded, SharesAddUpToOne) {
   for (const Shape& shape : shapes) {
-    const FoldedLobe lobe(some_matrix(), shape.fold, shape.creases);
+    const FoldedCosine lobe(some_matrix(), shape.fold, shape.creases);
     double sum = 0;
     for (const double x : {1.0, -1.0})
       for (const double y : {1.0, -1.0})
@@ -162,7 +162,7 @@ TEST(Folded, SharesAddUpToOne) {
 TEST(Folded, DensityIsTheIntegralsLimit) {
   Random random(3);
   for (const Shape& shape : shapes) {
-    const FoldedLobe lobe(some_matrix(), shape.fold, shape.creases);
+    const FoldedCosine lobe(some_matrix(), shape.fold, shape.creases);
     for (int i = 0; i < 100; ++i) {
       const Vector3d middle = random.direction();
       constexpr double side = 1e-4;
@@ -180,7 +180,7 @@ TEST(Folded, DensityIsTheIntegralsLimit) {
 TEST(Folded, WithoutFoldItIsTheLtcToTheBit) {
   Random random(4);
   const LinearlyTransformed plain(some_matrix());
-  const FoldedLobe lobe(some_matrix(), {});
+  const FoldedCosine lobe(some_matrix(), {});
   for (int i = 0; i < 100; ++i) {
     const Vector3d omega = random.direction();
     const double u = random.uniform(), v = random.uniform();
@@ -196,7 +196,7 @@ TEST(Folded, TheSignIsThatOfTheWinding) {
   mirrored.row(0) *= -1;
   std::vector<Vector3d> vertices = {{1, 0, 1}, {0, 1, 1}, {-1, -1, 1}};
   for (const Eigen::Matrix3d& matrix : {some_matrix(), mirrored}) {
-    const FoldedLobe lobe(matrix, {-1.2, 0.4});
+    const FoldedCosine lobe(matrix, {-1.2, 0.4});
     const double share = lobe.integrate_polygon(vertices);
     EXPECT_GT(share, 0.1);
     std::vector<Vector3d> other(vertices.rbegin(), vertices.rend());
@@ -204,7 +204,7 @@ TEST(Folded, TheSignIsThatOfTheWinding) {
   }
 }
 
-test::ChiSquared sampler_against(const FoldedLobe& sampler, const FoldedLobe& expected) {
+test::ChiSquared sampler_against(const FoldedCosine& sampler, const FoldedCosine& expected) {
   constexpr int kHeights = 24, kAzimuths = 36, kSubdivisions = 30, kSamples = 100'000;
   std::vector<double> counts(kHeights * kAzimuths, 0.0), wanted(kHeights * kAzimuths, 0.0);
   const int heights = kHeights * kSubdivisions, azimuths = kAzimuths * kSubdivisions;
@@ -232,26 +232,26 @@ test::ChiSquared sampler_against(const FoldedLobe& sampler, const FoldedLobe& ex
 // Seven tests more of kChiSquaredDeviations' significance, and one of a wrong density.
 TEST(FoldedChiSquared, SamplerFollowsTheDensity) {
   for (const Shape& shape : shapes) {
-    const FoldedLobe lobe(some_matrix(), shape.fold, shape.creases);
+    const FoldedCosine lobe(some_matrix(), shape.fold, shape.creases);
     const test::ChiSquared right = sampler_against(lobe, lobe);
     EXPECT_TRUE(right.accepted()) << right.deviations();
     EXPECT_GT(right.degrees_of_freedom, 50u);
   }
   const Shape& shape = shapes.front();
-  const FoldedLobe lobe(some_matrix(), shape.fold, shape.creases);
-  const FoldedLobe wrong(some_matrix(), {shape.fold.k * 1.1, shape.fold.g}, shape.creases);
+  const FoldedCosine lobe(some_matrix(), shape.fold, shape.creases);
+  const FoldedCosine wrong(some_matrix(), {shape.fold.k * 1.1, shape.fold.g}, shape.creases);
   EXPECT_FALSE(sampler_against(lobe, wrong).accepted());
 }
 
 TEST(Folded, RefusesWhatIsNotOneToOne) {
   const Eigen::Matrix3d m = some_matrix();
-  EXPECT_NO_THROW(FoldedLobe(m, {0, 2.49}, {0.4}));
-  EXPECT_THROW(FoldedLobe(m, {0, 2.5}, {0.4}), InputError);
-  EXPECT_THROW(FoldedLobe(m, {0, 0.8}, {0.3, 1}), InputError);
-  EXPECT_THROW(FoldedLobe(m, {std::nan(""), 0}), InputError);
-  EXPECT_THROW(FoldedLobe(m, {0.1, 0}, {-0.4}), InputError);
-  EXPECT_THROW(FoldedLobe(m, {0.1, 0}, {0.4, 0.4}), InputError);
-  EXPECT_THROW(FoldedLobe(Eigen::Matrix3d::Zero(), {0.1, 0}), InputError);
+  EXPECT_NO_THROW(FoldedCosine(m, {0, 2.49}, {0.4}));
+  EXPECT_THROW(FoldedCosine(m, {0, 2.5}, {0.4}), InputError);
+  EXPECT_THROW(FoldedCosine(m, {0, 0.8}, {0.3, 1}), InputError);
+  EXPECT_THROW(FoldedCosine(m, {std::nan(""), 0}), InputError);
+  EXPECT_THROW(FoldedCosine(m, {0.1, 0}, {-0.4}), InputError);
+  EXPECT_THROW(FoldedCosine(m, {0.1, 0}, {0.4, 0.4}), InputError);
+  EXPECT_THROW(FoldedCosine(Eigen::Matrix3d::Zero(), {0.1, 0}), InputError);
 }
 
 }  // namespace
