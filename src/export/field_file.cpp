@@ -276,6 +276,7 @@ Format field_format() {
           .contents = {.albedo = true, .loss = false},
           .of_fields = true,
           .of_materials = true,
+          .of_folded = true,
           .read =
               [](const TableFiles& files, const ReadAs&) {
                 require_readable(files.front());

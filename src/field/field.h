@@ -34,8 +34,8 @@
 // Where det T would be below 1/32, in corners that no lobe is well fitted in, A is raised until it
 // is not: M is regular, and not mirrored, whatever the coefficients.
 //
-// A folded field has two functions more, kappa of the orders sin (2n+1) phi and gamma of cos 2n phi,
-// both j >= 1: its lobe is M fold(omega_o) (ltc/folded.h) with the creases of the field and
+// A folded field has two functions more, kappa of the orders sin (2n+1) phi and gamma of cos 2n
+// phi, both j >= 1: its lobe is M fold(omega_o) (ltc/folded.h) with the creases of the field and
 //     k = alpha^2 kappa / s_y,   g = min(gamma, 0.95/sum of h),
 // so that the fold is one to one whatever the coefficients, and lambda = 1 is not folded.
 //
@@ -99,8 +99,8 @@ constexpr EnumNames<FieldPart, field_part_count> enum_names(FieldPart) {
             {FieldPart::gamma, "gamma"}}}};
 }
 
-// Whether a part is one of amplitude and Fresnel term, or of the fold; and whether its orders in phi
-// are sines.
+// Whether a part is one of amplitude and Fresnel term, or of the fold; and whether its orders in
+// phi are sines.
 constexpr bool is_of_albedo(FieldPart part) {
   return part == FieldPart::amplitude || part == FieldPart::view_cosine;
 }

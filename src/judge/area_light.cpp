@@ -161,9 +161,8 @@ void AreaLightJudge::draw_quads(const LobeSampler& sampler, std::uint64_t draw) 
   }
 }
 
-AreaLightError AreaLightJudge::error(const Eigen::Matrix3d& matrix,
-                                     std::optional<double> amplitude, const Fold& fold,
-                                     const Creases& creases) const {
+AreaLightError AreaLightJudge::error(const Eigen::Matrix3d& matrix, std::optional<double> amplitude,
+                                     const Fold& fold, const Creases& creases) const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   AreaLightError error{nan, nan, standard_error_};
   const double relative_amplitude = amplitude ? *amplitude / amplitude_ : 1.0;

@@ -97,8 +97,7 @@ void HeldOutJudge::set_lobe(const Lobe& lobe) {
   spread_ /= static_cast<double>(directions_.size());
 }
 
-double HeldOutJudge::loss(const Eigen::Matrix3d& matrix, const Fold& fold,
-                          const Creases& creases) {
+double HeldOutJudge::loss(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases) {
   if (!matrix.allFinite())
     return none;
   transform(*frame_, matrix, fold, creases, points_);

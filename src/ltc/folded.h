@@ -43,13 +43,16 @@ double crease_distance(const Eigen::Vector3d& p, const Creases& creases);
 Eigen::Vector3d folded(const Eigen::Vector3d& p, const Fold& fold, const Creases& creases);
 Eigen::Vector3d unfolded(const Eigen::Vector3d& p, const Fold& fold, const Creases& creases);
 
+// The share of a folded lobe below the horizon z = 0, exact: as ltsd.h's of an LTC.
+double share_below_horizon(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases);
+
 // The distribution of M fold(omega_o)/|M fold(omega_o)|. M is known up to a factor.
 class FoldedCosine {
  public:
   // Throws InputError for a matrix that is not finite or has no inverse, creases that are not
   // finite, negative or not increasing, and a fold that is not one to one.
   FoldedCosine(const Eigen::Matrix3d& matrix, const Fold& fold,
-             const Creases& creases = usual_creases);
+               const Creases& creases = usual_creases);
 
   // Density per steradian at a unit direction: max(z, 0)/(pi |p|^4 |det M| (1 - g H)) with p the
   // direction taken back, fold^-1(M^-1 omega), and H of the piece where that is.

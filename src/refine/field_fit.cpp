@@ -154,7 +154,8 @@ void bend(Start& start) {
 class Descent {
  public:
   Descent(const WeightedLobes& fitted, const WeightedLobes& held_out, double alpha_min,
-          const Creases& creases, const FieldSettings& settings, const QuerySampling& sampling, const RunContext& run)
+          const Creases& creases, const FieldSettings& settings, const QuerySampling& sampling,
+          const RunContext& run)
       : settings_(settings),
         run_(run),
         system_(fitted, alpha_min, creases, sampling, fitted_shift),

@@ -68,9 +68,8 @@ void FieldSystem::set_terms(const std::vector<FieldTerm>& terms, const RunContex
 
 // In the first values, those that there are directions of; the others do not count.
 template <int numbers, int count>
-void FieldSystem::set_model(Model& model,
-                            const Eigen::Matrix<double, numbers, count>& directions, double share,
-                            const ModelValueOf<numbers>& value) {
+void FieldSystem::set_model(Model& model, const Eigen::Matrix<double, numbers, count>& directions,
+                            double share, const ModelValueOf<numbers>& value) {
   model.loss = share * value.loss;
   model.gradient.setZero();
   model.curvature.setZero();

@@ -3,8 +3,8 @@
 // The loss of many look-ups as a function of a field's coefficients, to second order.
 //
 // Of a folded field the model is one of twelve numbers, (P q) (fit/quantile_model.h): q = L T (0,
-// alpha^2 kappa, gamma)^T is linear in the fold's values and in the matrix's, so that V changes from
-// step to step.
+// alpha^2 kappa, gamma)^T is linear in the fold's values and in the matrix's, so that V changes
+// from step to step.
 //
 // A query's matrix is linear in the values of the field's twelve functions there, P = P_1 + sum_a
 // f_a V_a (field/field.h; but for what keeps determinants positive), and each function is linear in
@@ -69,8 +69,8 @@ class FieldSystem {
   struct Query {
     FieldVariables at;
     Eigen::Matrix<double, 9, matrix_parts> directions;  // V
-    Vector9 constant;                            // P_1
-    double weight;                               // c_p
+    Vector9 constant;                                   // P_1
+    double weight;                                      // c_p
   };
   // In the functions' values, times c_p / spread.
   struct Model {

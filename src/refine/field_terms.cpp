@@ -40,7 +40,8 @@ std::vector<FieldTerm> pool(FieldPart first, FieldPart last, std::size_t degree,
 std::vector<FieldTerm> matrix_pool(std::size_t degree, bool is_folded) {
   std::vector<FieldTerm> terms = pool(FieldPart::a, FieldPart::m21, degree, most_matrix_angle);
   if (is_folded)
-    for (const FieldTerm& term : pool(FieldPart::kappa, FieldPart::gamma, degree, most_matrix_angle))
+    for (const FieldTerm& term :
+         pool(FieldPart::kappa, FieldPart::gamma, degree, most_matrix_angle))
       terms.push_back(term);
   return terms;
 }

@@ -12,8 +12,8 @@
 
 namespace ltc {
 
-// All allowed terms of the matrix, with those of a fold if asked, or of amplitude and Fresnel term, of at most a total degree (the
-// orders of the isotropic parts' own factors counted too), in order.
+// All allowed terms of the matrix, with those of a fold if asked, or of amplitude and Fresnel term,
+// of at most a total degree (the orders of the isotropic parts' own factors counted too), in order.
 std::vector<FieldTerm> matrix_pool(std::size_t degree, bool is_folded = false);
 std::vector<FieldTerm> albedo_pool(std::size_t degree);
 

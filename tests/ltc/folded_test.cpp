@@ -158,6 +158,23 @@ TEST(Folded, SharesAddUpToOne) {
   }
 }
 
+TEST(Folded, TheShareBelowTheHorizonIsThatOfTheSamples) {
+  for (const Shape& shape : shapes) {
+    const FoldedCosine lobe(some_matrix(), shape.fold, shape.creases);
+    Random random(5);
+    double below = 0;
+    constexpr int count = 100'000;
+    for (int i = 0; i < count; ++i) {
+      const double u = random.uniform();
+      below += lobe.sample(u, random.uniform()).z() < 0;
+    }
+    // Four standard errors.
+    EXPECT_NEAR(below / count, share_below_horizon(some_matrix(), shape.fold, shape.creases),
+                4 * 0.5 / std::sqrt(count));
+  }
+  EXPECT_EQ(share_below_horizon(some_matrix(), {}, {}), share_below_horizon(some_matrix()));
+}
+
 // A polygon so small that its density is one number, by the integral and by the density.
 TEST(Folded, DensityIsTheIntegralsLimit) {
   Random random(3);
