@@ -82,8 +82,11 @@ class Reader {
   Table table() const {
     require("format", format_name);
     require("format_version", field_format_version);
-    require("basis", field_basis_name);
     Field field;
+    if (json_.contains("creases"))
+      require("basis", folded_basis_name);
+    else
+      require("basis", field_basis_name);
     field.alpha_min = real("alpha_min");
     if (!(field.alpha_min >= least_alpha_min && field.alpha_min <= 1))
       refuse_file(file_, fmt::format("alpha_min is {}; allowed: {} to 1", field.alpha_min,
@@ -243,11 +246,16 @@ void require_consistent(const Field& field, const fs::path& file) {
 
 std::string encode_field(const Table& table) {
   const Field& field = *table.field;
-  Json json = {{"format", format_name},        {"format_version", field_format_version},
-               {"basis", field_basis_name},    {"brdf", field.model->name()},
-               {"alpha_min", field.alpha_min}, {"generator", table.generator},
-               {"created", table.created},     {"seed", table.seed},
-               {"config", table.config},       {"variables", variables()}};
+  Json json = {{"format", format_name},
+               {"format_version", field_format_version},
+               {"basis", field.creases.empty() ? field_basis_name : folded_basis_name},
+               {"brdf", field.model->name()},
+               {"alpha_min", field.alpha_min},
+               {"generator", table.generator},
+               {"created", table.created},
+               {"seed", table.seed},
+               {"config", table.config},
+               {"variables", variables()}};
   if (field.material)
     json["material"] = *field.material;
   if (!field.creases.empty())

@@ -81,12 +81,14 @@ TEST(FieldFile, FoldedOnesAreReadWhereTheyAreKnown) {
 TEST(FieldFile, CreasesAreIncreasingNumbers) {
   Json json =
       Json::parse(encode_field(table_of_field(folded_field(), Grid::paper(3), Storage::matrix)));
-  for (const Json creases : {Json::array(), Json{0.4, 0.4}, Json{-1}, Json{"a"}, Json(0.4)}) {
+  for (const Json& creases : {Json::array(), Json{0.4, 0.4}, Json{-1}, Json{"a"}, Json(0.4)}) {
     json["creases"] = creases;
     expect_refused(json, "creases are");
   }
-  // Without creases there are no parts of a fold.
+  // Without creases there is no fold, and another basis, which older readers know.
   json.erase("creases");
+  expect_refused(json, "basis is \"chebyshev-polar-folded\"; allowed: \"chebyshev-polar\"");
+  json["basis"] = "chebyshev-polar";
   EXPECT_EQ(decode_field(json.dump(), "x.json").field->terms.size(),
             synthetic_field().terms.size());
 }
