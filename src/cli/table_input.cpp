@@ -36,8 +36,10 @@ void add_layout_option(CLI::App& app, std::optional<ReadAs>& as) {
   allow_names(option, names)->option_text("LAYOUT")->group("How to read tables");
 }
 
-Table read_input(const std::string& file, const std::optional<ReadAs>& as) {
-  Table table = read_table(file, as.value_or(ReadAs{}));
+Table read_input(const std::string& file, const std::optional<ReadAs>& as, FoldedFields folded) {
+  ReadAs reading = as.value_or(ReadAs{});
+  reading.folded = folded == FoldedFields::taken;
+  Table table = read_table(file, reading);
   // A line that cannot be written is no reason to stop.
   if (!as && !table.read_as.empty())
     std::fputs(fmt::format("{}: {}\n", one_line(file), table.read_as).c_str(), stderr);

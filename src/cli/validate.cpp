@@ -48,13 +48,19 @@ void validate(const Arguments& arguments, Files& files) {
   const RunContext run{arguments.threads, &progress};
   if (!arguments.report.empty())
     files.write("--report", files.make_folder(arguments.report) / page_name);
-  Validation report{
-      arguments.table, read_input(arguments.table, arguments.layout), {}, std::nullopt, {}};
+  Validation report{arguments.table,
+                    read_input(arguments.table, arguments.layout, FoldedFields::taken),
+                    {},
+                    std::nullopt,
+                    {}};
+  if (is_folded(report.table) && !arguments.report.empty())
+    throw InputError(fmt::format("{}: a folded field; --report draws lobes without a fold alone",
+                                 arguments.table));
   const ValidateSettings settings =
       load_validate_settings(arguments.config.path(), arguments.config.overrides,
                              settings_for(report.table), ConfigArguments::override_option);
-  report.invariants =
-      check_invariants(report.table, settings.invariants, run, contents_of(arguments.table, report.table));
+  report.invariants = check_invariants(report.table, settings.invariants, run,
+                                       contents_of(arguments.table, report.table));
   if (!arguments.no_quality) {
     report.quality = measure_quality(report.table, settings.quality, run);
     report.thresholds = check_thresholds(*report.quality, settings.thresholds, settings.said);

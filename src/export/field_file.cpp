@@ -64,6 +64,11 @@ Json json_of(const Field& field, FieldPart part) {
   return {{"terms", terms}, {"coefficients", coefficients}};
 }
 
+// Those of the fold are there where there are creases.
+std::size_t part_count(const Field& field) {
+  return field_part_count - (field.creases.empty() ? field_fold_part_count : 0);
+}
+
 class Reader {
  public:
   Reader(std::string_view text, const fs::path& file) : file_(file) {
@@ -77,8 +82,11 @@ class Reader {
   Table table() const {
     require("format", format_name);
     require("format_version", field_format_version);
-    require("basis", field_basis_name);
     Field field;
+    if (json_.contains("creases"))
+      require("basis", folded_basis_name);
+    else
+      require("basis", field_basis_name);
     field.alpha_min = real("alpha_min");
     if (!(field.alpha_min >= least_alpha_min && field.alpha_min <= 1))
       refuse_file(file_, fmt::format("alpha_min is {}; allowed: {} to 1", field.alpha_min,
@@ -90,7 +98,8 @@ class Reader {
     }
     read_material(field);
     const Json& parts = member(json_, "parts", "the file");
-    for (std::size_t part = 0; part < field_part_count; ++part)
+    read_creases(field);
+    for (std::size_t part = 0; part < part_count(field); ++part)
       read_part(parts, static_cast<FieldPart>(part), field);
     require_consistent(field, file_);
     Table table = table_of_field(field, Grid::paper(), Storage::matrix);
@@ -137,6 +146,25 @@ class Reader {
   }
   std::string optional_text(const std::string& name) const {
     return json_.contains(name) ? text(name) : "";
+  }
+
+  // Of a folded field alone.
+  void read_creases(Field& field) const {
+    const auto json = json_.find("creases");
+    if (json == json_.end())
+      return;
+    constexpr std::size_t most_creases = 4;
+    const auto is_crease = [](const Json& value) {
+      return value.is_number() && value.get<double>() >= 0 && value.get<double>() <= 100;
+    };
+    if (!json->is_array() || json->empty() || json->size() > most_creases ||
+        !std::all_of(json->begin(), json->end(), is_crease))
+      refuse_file(file_, fmt::format("creases are {}; allowed: one to {} numbers of 0 to 100",
+                                     short_text(*json), most_creases));
+    field.creases = json->get<Creases>();
+    for (std::size_t i = 1; i < field.creases.size(); ++i)
+      if (field.creases[i] <= field.creases[i - 1])
+        refuse_file(file_, fmt::format("creases are {}; they must increase", short_text(*json)));
   }
 
   void read_material(Field& field) const {
@@ -218,14 +246,21 @@ void require_consistent(const Field& field, const fs::path& file) {
 
 std::string encode_field(const Table& table) {
   const Field& field = *table.field;
-  Json json = {{"format", format_name},        {"format_version", field_format_version},
-               {"basis", field_basis_name},    {"brdf", field.model->name()},
-               {"alpha_min", field.alpha_min}, {"generator", table.generator},
-               {"created", table.created},     {"seed", table.seed},
-               {"config", table.config},       {"variables", variables()}};
+  Json json = {{"format", format_name},
+               {"format_version", field_format_version},
+               {"basis", field.creases.empty() ? field_basis_name : folded_basis_name},
+               {"brdf", field.model->name()},
+               {"alpha_min", field.alpha_min},
+               {"generator", table.generator},
+               {"created", table.created},
+               {"seed", table.seed},
+               {"config", table.config},
+               {"variables", variables()}};
   if (field.material)
     json["material"] = *field.material;
-  for (std::size_t i = 0; i < field_part_count; ++i) {
+  if (!field.creases.empty())
+    json["creases"] = field.creases;
+  for (std::size_t i = 0; i < part_count(field); ++i) {
     const auto part = static_cast<FieldPart>(i);
     json["parts"][std::string(name_of(part))] = json_of(field, part);
   }
@@ -249,6 +284,7 @@ Format field_format() {
           .contents = {.albedo = true, .loss = false},
           .of_fields = true,
           .of_materials = true,
+          .of_folded = true,
           .read =
               [](const TableFiles& files, const ReadAs&) {
                 require_readable(files.front());

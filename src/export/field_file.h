@@ -15,6 +15,7 @@ namespace ltc {
 
 // The basis of field/field.h as files name it, and the version of their contract.
 inline constexpr std::string_view field_basis_name = "chebyshev-polar";
+constexpr const char* folded_basis_name = "chebyshev-polar-folded";  // of folded ones, in JSON
 inline constexpr int field_format_version = 1;
 
 // A term's numbers as files have them: degrees in alpha, lambda, r and w, and the order in phi.

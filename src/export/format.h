@@ -35,6 +35,7 @@ struct WriteOptions {
 struct ReadAs {
   std::optional<Layout> axes;  // of arrays without axes; else told apart
   TextureLayout textures = TextureLayout::automatic;
+  bool folded = false;  // whether a folded field (ltc/folded.h) may come of it: else it is refused
 };
 
 // The files of one table, in the order of the format's endings.
@@ -52,6 +53,7 @@ struct Format {
   bool OutputSettings::*half = nullptr;
   bool of_fields = false;     // whether it holds fields alone
   bool of_materials = false;  // whether it holds fields of one material
+  bool of_folded = false;     // whether it holds folded fields; the others know of no fold
   bool without_axes = false;  // whether a reader is to be told the layout of the grid
   // Whether others use such names for files of their own, so that none is removed as an older one
   // of the set.
@@ -85,7 +87,8 @@ struct Format {
     return asked && config.output.*asked && (!of_fields || config.field.size > 0);
   }
   bool is_written(const Config& config) const {
-    return is_asked(config) && why_not(config.grid, config.storage, config.output.layout).empty();
+    return is_asked(config) && (of_folded || !config.field.folded) &&
+           why_not(config.grid, config.storage, config.output.layout).empty();
   }
 };
 

@@ -199,7 +199,7 @@ std::optional<Field> read_field(const Hdf5Input& file, const fs::path& path, con
   const std::size_t count = shape.size() == 1 ? shape[0] : 0;
   const auto rows = file.values<std::uint8_t>("field/terms", {count, term_bytes});
   Field field{
-      grid.alpha_min, grid.model, {}, {}, file.values<float>("field/coefficients", {count})};
+      grid.alpha_min, grid.model, {}, {}, {}, file.values<float>("field/coefficients", {count})};
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* const row = rows.data() + i * term_bytes;
     if (row[0] >= field_part_count)

@@ -36,7 +36,12 @@ Table read_table(const std::filesystem::path& path, const ReadAs& as) {
   if (!is_read(*set.format))
     throw InputError(fmt::format("{}: files of {} are only written; allowed: {}", path.string(),
                                  set.format->name, endings_text(is_read)));
-  return set.format->read(set.files, as);
+  Table table = set.format->read(set.files, as);
+  if (is_folded(table) && !as.folded)
+    throw InputError(fmt::format(
+        "{}: a folded field; expected a table, or a field without a fold (docs/folded.md)",
+        path.string()));
+  return table;
 }
 
 void write_table(const Table& table, const std::filesystem::path& path,
@@ -55,6 +60,9 @@ void add_table(platform::FileSet& set, const Table& table, const Format& format,
   if (const std::string why = format.why_not(table.grid, table.storage, layout); !why.empty())
     throw InputError(fmt::format("{}: {} cannot hold this table: it {}", files.front().string(),
                                  format.name, why));
+  if (is_folded(table) && !format.of_folded)
+    throw InputError(
+        fmt::format("{}: {} cannot hold a folded field", files.front().string(), format.name));
   if (format.of_fields && !table.field)
     throw InputError(fmt::format("{}: {} holds fields, and this is a table of nodes",
                                  files.front().string(), format.name));
@@ -83,8 +91,11 @@ bool is_whole_table(const std::filesystem::path& path) {
 
 std::string config_text(const std::filesystem::path& file) {
   const Format* const format = find_format(file);
-  const bool has_config = format && (keeps_fits(*format) || (format->of_fields && is_read(*format)));
-  return has_config ? read_table(file).config : read_config(file);
+  const bool has_config =
+      format && (keeps_fits(*format) || (format->of_fields && is_read(*format)));
+  ReadAs any;
+  any.folded = true;
+  return has_config ? read_table(file, any).config : read_config(file);
 }
 
 }  // namespace ltc

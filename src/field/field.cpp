@@ -21,7 +21,7 @@ bool is_isotropic(FieldPart part) {
 // Whether the part's orders are odd: entries that mix the mirror's direction with another.
 bool is_odd(FieldPart part) {
   return part == FieldPart::m02 || part == FieldPart::m20 || part == FieldPart::m12 ||
-         part == FieldPart::m21;
+         part == FieldPart::m21 || part == FieldPart::kappa;
 }
 
 // As near as single precision has it.
@@ -160,6 +160,13 @@ FieldValues values_of(const Field& field, const FieldVariables& at) {
   return values;
 }
 
+double most_fold(const Creases& creases) {
+  double sum = 0;
+  for (const double h : creases)
+    sum += h;
+  return 0.95 / sum;
+}
+
 Eigen::Matrix3d field_frame_matrix(const double* values, const FieldVariables& at) {
   const FieldDirections directions(at);
   Eigen::Matrix3d t = directions.constant;
@@ -181,7 +188,11 @@ FieldLobe lobe_of(const Field& field, const Lobe& folded) {
   const Eigen::Matrix3d matrix = mirror_rotation(at.lobe.omega_v()) *
                                  field_frame_matrix(values.data(), at) *
                                  Eigen::Vector3d(at.lobe.alpha_x, at.lobe.alpha_y, 1).asDiagonal();
-  return {matrix, amplitude, amplitude * std::pow(1 - x, 5)};
+  Fold bend;
+  if (!field.creases.empty())
+    bend = {at.alpha * at.alpha * values[index(FieldPart::kappa)] / at.width_y,
+            std::min(values[index(FieldPart::gamma)], most_fold(field.creases))};
+  return {matrix, amplitude, amplitude * std::pow(1 - x, 5), bend};
 }
 
 }  // namespace ltc

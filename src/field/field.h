@@ -34,6 +34,11 @@
 // Where det T would be below 1/32, in corners that no lobe is well fitted in, A is raised until it
 // is not: M is regular, and not mirrored, whatever the coefficients.
 //
+// A folded field has two functions more, kappa of the orders sin (2n+1) phi and gamma of cos 2n
+// phi, both j >= 1: its lobe is M fold(omega_o) (ltc/folded.h) with the creases of the field and
+//     k = alpha^2 kappa / s_y,   g = min(gamma, 0.95/sum of h),
+// so that the fold is one to one whatever the coefficients, and lambda = 1 is not folded.
+//
 // Amplitude and Fresnel term (brdf/albedo.h) are functions e and x of the same terms (even m; j = 0
 // with m = 0), r and w being made with alpha_y in place of s_y:
 //     amplitude = e,   fresnel = e (1 - x)^5,
@@ -49,6 +54,7 @@
 
 #include "brdf/lobe.h"
 #include "core/enum_names.h"
+#include "ltc/folded.h"
 
 namespace ltc {
 
@@ -68,8 +74,11 @@ enum class FieldPart {
   m21,  // of the matrix
   amplitude,
   view_cosine,  // e and x
+  kappa,
+  gamma,  // of the fold
 };
-inline constexpr std::size_t field_part_count = 14, field_matrix_part_count = 12;
+inline constexpr std::size_t field_part_count = 16, field_matrix_part_count = 12,
+                             field_fold_part_count = 2;
 constexpr EnumNames<FieldPart, field_part_count> enum_names(FieldPart) {
   return {"part of a field",
           {{{FieldPart::a, "A"},
@@ -85,17 +94,22 @@ constexpr EnumNames<FieldPart, field_part_count> enum_names(FieldPart) {
             {FieldPart::m20, "m20"},
             {FieldPart::m21, "m21"},
             {FieldPart::amplitude, "amplitude"},
-            {FieldPart::view_cosine, "view_cosine"}}}};
+            {FieldPart::view_cosine, "view_cosine"},
+            {FieldPart::kappa, "kappa"},
+            {FieldPart::gamma, "gamma"}}}};
 }
 
-// Whether a part is one of amplitude and Fresnel term, not of the matrix; and whether its orders in
+// Whether a part is one of amplitude and Fresnel term, or of the fold; and whether its orders in
 // phi are sines.
 constexpr bool is_of_albedo(FieldPart part) {
-  return part >= FieldPart::amplitude;
+  return part == FieldPart::amplitude || part == FieldPart::view_cosine;
+}
+constexpr bool is_of_fold(FieldPart part) {
+  return part >= FieldPart::kappa;
 }
 constexpr bool is_sine(FieldPart part) {
   return part == FieldPart::m01 || part == FieldPart::m10 || part == FieldPart::m12 ||
-         part == FieldPart::m21;
+         part == FieldPart::m21 || part == FieldPart::kappa;
 }
 
 // A term without its coefficient: i, j, k, l and m above.
@@ -120,6 +134,8 @@ struct Field {
   // The larger and the smaller roughness that it was contracted to (refine/field_fit.h): for others
   // it has no values. Nothing of a field of all lobes.
   std::optional<std::array<double, 2>> material = {};
+  // Of its fold; none: it has no fold, and no terms of kappa and gamma.
+  Creases creases = {};
   // In rising order, each once; those that are not there are zero.
   std::vector<FieldTerm> terms;
   std::vector<float> coefficients;
@@ -184,10 +200,14 @@ FieldValues values_of(const Field& field, const FieldVariables& at);
 struct FieldLobe {
   Eigen::Matrix3d matrix;
   double amplitude, fresnel;
+  Fold fold = {};
 };
 FieldLobe lobe_of(const Field& field, const Lobe& folded);
 // L T diag(1, s_y / alpha_y, 1), of M = Q P diag(alpha_x, alpha_y, 1) (fit/lobe_frame.h), of the
 // first twelve values.
 Eigen::Matrix3d field_frame_matrix(const double* values, const FieldVariables& at);
+
+// The largest g of these creases.
+double most_fold(const Creases& creases);
 
 }  // namespace ltc

@@ -18,7 +18,9 @@ using Floats = hn::CappedTag<float, row_width>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
 using V = hn::Vec<Floats>;
 
-void transform_samples(const FrameMatrix& matrix, const Points& cosine, const SampleRows& result) {
+template <std::size_t columns>
+void transform_columns(const FrameMatrix& matrix, const Points& cosine, const SampleRows& result) {
+  constexpr std::size_t width = row_width_of(columns);
   const float* const p = matrix.p;
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
@@ -26,14 +28,21 @@ void transform_samples(const FrameMatrix& matrix, const Points& cosine, const Sa
   const V p00 = hn::Set(d, p[0]), p01 = hn::Set(d, p[1]), p02 = hn::Set(d, p[2]);
   const V p10 = hn::Set(d, p[3]), p11 = hn::Set(d, p[4]), p12 = hn::Set(d, p[5]);
   const V p20 = hn::Set(d, p[6]), p21 = hn::Set(d, p[7]), p22 = hn::Set(d, p[8]);
-  HWY_ALIGN float columns[row_width * row_width];
+  HWY_ALIGN float transposed[width * row_width] = {};
   for (std::size_t i = 0; i < cosine.count; i += lanes) {
     const V x = hn::Mul(ax, hn::Load(d, cosine.x + i));
     const V y = hn::Mul(ay, hn::Load(d, cosine.y + i));
     const V z = hn::Load(d, cosine.z + i);
-    const V fx = hn::MulAdd(p00, x, hn::MulAdd(p01, y, hn::Mul(p02, z)));
-    const V fy = hn::MulAdd(p10, x, hn::MulAdd(p11, y, hn::Mul(p12, z)));
-    const V fz = hn::MulAdd(p20, x, hn::MulAdd(p21, y, hn::Mul(p22, z)));
+    V fx = hn::MulAdd(p00, x, hn::MulAdd(p01, y, hn::Mul(p02, z)));
+    V fy = hn::MulAdd(p10, x, hn::MulAdd(p11, y, hn::Mul(p12, z)));
+    V fz = hn::MulAdd(p20, x, hn::MulAdd(p21, y, hn::Mul(p22, z)));
+    V u = hn::Zero(d);
+    if constexpr (columns == 4) {
+      u = hn::Load(d, matrix.u + i);
+      fx = hn::MulAdd(hn::Set(d, matrix.q[0]), u, fx);
+      fy = hn::MulAdd(hn::Set(d, matrix.q[1]), u, fy);
+      fz = hn::MulAdd(hn::Set(d, matrix.q[2]), u, fz);
+    }
     const V lateral = hn::MulAdd(fx, fx, hn::Mul(fy, fy));
     const V length = hn::Sqrt(hn::MulAdd(fz, fz, lateral));
     const V scale = hn::Div(one, length);
@@ -45,28 +54,29 @@ void transform_samples(const FrameMatrix& matrix, const Points& cosine, const Sa
     hn::Store(ox, d, result.gx + i);
     hn::Store(oy, d, result.gy + i);
     hn::Store(oz, d, result.gz + i);
-    const V a0 = hn::Mul(x, scale), a1 = hn::Mul(y, scale), a2 = hn::Mul(z, scale);
-    hn::Store(hn::Mul(ox, a0), d, columns + 0 * lanes);
-    hn::Store(hn::Mul(ox, a1), d, columns + 1 * lanes);
-    hn::Store(hn::Mul(ox, a2), d, columns + 2 * lanes);
-    hn::Store(hn::Mul(oy, a0), d, columns + 3 * lanes);
-    hn::Store(hn::Mul(oy, a1), d, columns + 4 * lanes);
-    hn::Store(hn::Mul(oy, a2), d, columns + 5 * lanes);
-    hn::Store(hn::Mul(oz, a0), d, columns + 6 * lanes);
-    hn::Store(hn::Mul(oz, a1), d, columns + 7 * lanes);
-    hn::Store(hn::Mul(oz, a2), d, columns + 8 * lanes);
-    hn::Store(a0, d, columns + 9 * lanes);
-    hn::Store(a1, d, columns + 10 * lanes);
-    hn::Store(a2, d, columns + 11 * lanes);
-    hn::Store(a0, d, columns + 12 * lanes);
-    hn::Store(a1, d, columns + 13 * lanes);
-    hn::Store(a2, d, columns + 14 * lanes);
-    hn::Store(one, d, columns + 15 * lanes);
-    float* row = result.rows + i * row_width;
+    V a[columns] = {hn::Mul(x, scale), hn::Mul(y, scale), hn::Mul(z, scale)};
+    if constexpr (columns == 4)
+      a[3] = hn::Mul(u, scale);
+    for (std::size_t c = 0; c < columns; ++c) {
+      hn::Store(hn::Mul(ox, a[c]), d, transposed + c * lanes);
+      hn::Store(hn::Mul(oy, a[c]), d, transposed + (columns + c) * lanes);
+      hn::Store(hn::Mul(oz, a[c]), d, transposed + (2 * columns + c) * lanes);
+      hn::Store(a[c], d, transposed + (3 * columns + c) * lanes);
+      hn::Store(a[c], d, transposed + (4 * columns + c) * lanes);
+    }
+    hn::Store(one, d, transposed + 5 * columns * lanes);
+    float* row = result.rows + i * width;
     for (std::size_t sample = 0; sample < lanes; ++sample)
-      for (std::size_t entry = 0; entry < row_width; ++entry)
-        row[sample * row_width + entry] = columns[entry * lanes + sample];
+      for (std::size_t entry = 0; entry < width; ++entry)
+        row[sample * width + entry] = transposed[entry * lanes + sample];
   }
+}
+
+void transform_samples(const FrameMatrix& matrix, const Points& cosine, const SampleRows& result) {
+  if (matrix.q)
+    transform_columns<4>(matrix, cosine, result);
+  else
+    transform_columns<3>(matrix, cosine, result);
 }
 
 void project_and_bin(const ProjectionMap& map, const Points& g, std::size_t bin_count, float* xi,
@@ -98,28 +108,31 @@ void project_and_bin(const ProjectionMap& map, const Points& g, std::size_t bin_
 }
 
 // accumulate_rows for a group of fixed size, so that its loops unroll.
-template <std::size_t group>
+template <std::size_t group, std::size_t columns>
 void accumulate_group(const BinnedSamples& samples, const float* rows, const float* direction_z,
                       const BinSums& result) {
+  constexpr std::size_t width = row_width_of(columns);
   // Values of their own: the compiler cannot know that what is written is not them.
   const auto [xi, bins, count, bin_count] = samples;
   const auto [sums, populations] = result;
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
   // Factor of lane l along direction g is constant[g][l] + xi slope[l].
-  HWY_ALIGN float constant[group][row_width], slope[row_width];
-  for (std::size_t lane = 0; lane < row_width; ++lane) {
-    slope[lane] = lane < 12 || lane == 15 ? 1.0f : 0.0f;
+  HWY_ALIGN float constant[group][width], slope[width];
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    slope[lane] = lane < 4 * columns || lane == 5 * columns ? 1.0f : 0.0f;
     for (std::size_t g = 0; g < group; ++g)
-      constant[g][lane] = lane < 9 ? direction_z[g] : (lane >= 12 && lane < 15 ? 1.0f : 0.0f);
+      constant[g][lane] = lane < 3 * columns                          ? direction_z[g]
+                          : lane >= 4 * columns && lane < 5 * columns ? 1.0f
+                                                                      : 0.0f;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const float* row = rows + i * row_width;
+    const float* row = rows + i * width;
     for (std::size_t g = 0; g < group; ++g) {
       const V projection = hn::Set(d, xi[g * count + i]);
       const std::size_t bin = g * bin_count + static_cast<std::size_t>(bins[g * count + i]);
-      float* sum = sums + bin * row_width;
-      for (std::size_t part = 0; part < row_width; part += lanes) {
+      float* sum = sums + bin * width;
+      for (std::size_t part = 0; part < width; part += lanes) {
         const V factor =
             hn::MulAdd(projection, hn::Load(d, slope + part), hn::Load(d, constant[g] + part));
         hn::Store(hn::MulAdd(factor, hn::Load(d, row + part), hn::Load(d, sum + part)), d,
@@ -130,17 +143,26 @@ void accumulate_group(const BinnedSamples& samples, const float* rows, const flo
   }
 }
 
-void accumulate_rows(const BinnedSamples& samples, const float* rows, const float* direction_z,
-                     std::size_t group, const BinSums& result) {
+template <std::size_t columns>
+void accumulate_columns(const BinnedSamples& samples, const float* rows, const float* direction_z,
+                        std::size_t group, const BinSums& result) {
   if (group == directions_at_once) {
-    accumulate_group<directions_at_once>(samples, rows, direction_z, result);
+    accumulate_group<directions_at_once, columns>(samples, rows, direction_z, result);
     return;
   }
   const auto [xi, bins, count, bin_count] = samples;
   for (std::size_t g = 0; g < group; ++g)
-    accumulate_group<1>(
+    accumulate_group<1, columns>(
         {xi + g * count, bins + g * count, count, bin_count}, rows, direction_z + g,
-        {result.sums + g * bin_count * row_width, result.populations + g * bin_count});
+        {result.sums + g * bin_count * row_width_of(columns), result.populations + g * bin_count});
+}
+
+void accumulate_rows(const BinnedSamples& samples, const float* rows, const float* direction_z,
+                     std::size_t group, const BinSums& result, std::size_t columns) {
+  if (columns == 4)
+    accumulate_columns<4>(samples, rows, direction_z, group, result);
+  else
+    accumulate_columns<3>(samples, rows, direction_z, group, result);
 }
 
 void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,
@@ -193,37 +215,43 @@ V integrated_quantile(const TargetCells& target, std::size_t bin_count, V u) {
 }
 
 // jacobian_of_sums for every bin, padded with zeros to rows.
+template <std::size_t columns>
 void store_jacobians(const ProjectionMap& map, const float* sums, std::size_t bin_count,
                      float* jacobians) {
+  constexpr std::size_t width = row_width_of(columns);
 #if HWY_TARGET <= HWY_AVX3
-  // A row is a register: lane l is factor[l] sum[source[l]] - sum[l].
-  const Floats d;
-  HWY_ALIGN const std::int32_t source[row_width] = {12, 13, 14, 12, 13, 14, 9, 10,
-                                                    11, 0,  0,  0,  0,  0,  0, 0};
-  const float x = map.direction_x, y = map.direction_y;
-  HWY_ALIGN const float factor[row_width] = {x, x, x, y, y, y, -1, -1, -1};
-  const auto indices = hn::SetTableIndices(d, source);
-  const V factors = hn::Load(d, factor);
-  const auto used = hn::FirstN(d, 9);
-  for (std::size_t b = 0; b < bin_count; ++b) {
-    const V sum = hn::Load(d, sums + b * row_width);
-    // Not fused, like jacobian_of_sums: the same bits.
-    const V jacobian = hn::Sub(hn::Mul(factors, hn::TableLookupLanes(sum, indices)), sum);
-    hn::Store(hn::IfThenElseZero(used, jacobian), d, jacobians + b * row_width);
-  }
-#else
-  for (std::size_t b = 0; b < bin_count; ++b) {
-    float* jacobian = jacobians + b * row_width;
-    jacobian_of_sums(map, sums + b * row_width, jacobian);
-    for (std::size_t lane = 9; lane < row_width; ++lane)
-      jacobian[lane] = 0;
+  if constexpr (columns == 3) {
+    // A row is a register: lane l is factor[l] sum[source[l]] - sum[l].
+    const Floats d;
+    HWY_ALIGN const std::int32_t source[row_width] = {12, 13, 14, 12, 13, 14, 9, 10,
+                                                      11, 0,  0,  0,  0,  0,  0, 0};
+    const float x = map.direction_x, y = map.direction_y;
+    HWY_ALIGN const float factor[row_width] = {x, x, x, y, y, y, -1, -1, -1};
+    const auto indices = hn::SetTableIndices(d, source);
+    const V factors = hn::Load(d, factor);
+    const auto used = hn::FirstN(d, 9);
+    for (std::size_t b = 0; b < bin_count; ++b) {
+      const V sum = hn::Load(d, sums + b * row_width);
+      // Not fused, like jacobian_of_sums: the same bits.
+      const V jacobian = hn::Sub(hn::Mul(factors, hn::TableLookupLanes(sum, indices)), sum);
+      hn::Store(hn::IfThenElseZero(used, jacobian), d, jacobians + b * row_width);
+    }
+    return;
   }
 #endif
+  for (std::size_t b = 0; b < bin_count; ++b) {
+    float* jacobian = jacobians + b * width;
+    jacobian_of_sums<static_cast<int>(columns)>(map, sums + b * width, jacobian);
+    for (std::size_t lane = 3 * columns; lane < width; ++lane)
+      jacobian[lane] = 0;
+  }
 }
 
-void reduce_direction(const DirectionBins& of, const TargetCells& target, float smoothing,
-                      float* scratch, DirectionSums& result) {
-  const auto& [map, sums, populations, bin_count, count] = of;
+template <std::size_t columns>
+void reduce_columns(const DirectionBins& of, const TargetCells& target, float smoothing,
+                    float* scratch, DirectionSums& result) {
+  constexpr std::size_t width = row_width_of(columns), numbers = 3 * columns;
+  const auto& [map, sums, populations, bin_count, count, unused] = of;
   const Floats d;
   const Ints di;
   const std::size_t lanes = hn::Lanes(d);
@@ -236,7 +264,7 @@ void reduce_direction(const DirectionBins& of, const TargetCells& target, float 
   for (std::size_t b = 0; b < bin_count; ++b) {
     below += populations[b];
     pulls[b] = static_cast<float>(below) * share;
-    xi_sums[b] = sums[b * row_width + 15];
+    xi_sums[b] = sums[b * width + 5 * columns];
   }
   for (std::size_t b = 0; b < bin_count; b += lanes)
     hn::Store(integrated_quantile(target, bin_count, hn::Load(d, pulls + b)), d, integral + b);
@@ -267,33 +295,41 @@ void reduce_direction(const DirectionBins& of, const TargetCells& target, float 
   // In two passes: a vector load of what scalar stores have just written would have to wait for
   // them.
   float* const jacobians = scratch + 4 * bin_count;
-  store_jacobians(map, sums, bin_count, jacobians);
-  V gradient[row_width], hessian[9 * row_width];
-  // Lanes 9 to 15 carry nothing; registers that hold only those are left out.
-  const std::size_t parts = (9 + lanes - 1) / lanes;
+  store_jacobians<columns>(map, sums, bin_count, jacobians);
+  V gradient[width], hessian[numbers * width];
+  // The last lanes carry nothing; registers that hold only those are left out.
+  const std::size_t parts = (numbers + lanes - 1) / lanes;
   for (std::size_t part = 0; part < parts; ++part) {
     gradient[part] = hn::Load(d, result.gradient + part * lanes);
-    for (std::size_t row = 0; row < 9; ++row)
-      hessian[row * parts + part] = hn::Load(d, result.hessian + row * row_width + part * lanes);
+    for (std::size_t row = 0; row < numbers; ++row)
+      hessian[row * parts + part] = hn::Load(d, result.hessian + row * width + part * lanes);
   }
   for (std::size_t b = 0; b < bin_count; ++b) {
-    const float* jacobian = jacobians + b * row_width;
+    const float* jacobian = jacobians + b * width;
     for (std::size_t part = 0; part < parts; ++part) {
       const V j = hn::Load(d, jacobian + part * lanes);
       gradient[part] = hn::MulAdd(hn::Set(d, pulls[b]), j, gradient[part]);
       const V scaled = hn::Mul(hn::Set(d, factors[b]), j);
-      for (std::size_t row = 0; row < 9; ++row)
+      for (std::size_t row = 0; row < numbers; ++row)
         hessian[row * parts + part] =
             hn::MulAdd(hn::Set(d, jacobian[row]), scaled, hessian[row * parts + part]);
     }
   }
   for (std::size_t part = 0; part < parts; ++part) {
     hn::Store(gradient[part], d, result.gradient + part * lanes);
-    for (std::size_t row = 0; row < 9; ++row)
-      hn::Store(hessian[row * parts + part], d, result.hessian + row * row_width + part * lanes);
+    for (std::size_t row = 0; row < numbers; ++row)
+      hn::Store(hessian[row * parts + part], d, result.hessian + row * width + part * lanes);
   }
   for (const float loss : losses)
     result.loss += static_cast<double>(loss);
+}
+
+void reduce_direction(const DirectionBins& of, const TargetCells& target, float smoothing,
+                      float* scratch, DirectionSums& result) {
+  if (of.columns == 4)
+    reduce_columns<4>(of, target, smoothing, scratch, result);
+  else
+    reduce_columns<3>(of, target, smoothing, scratch, result);
 }
 
 }  // namespace ltc::kernels::HWY_NAMESPACE
@@ -318,8 +354,8 @@ void project_and_bin(const ProjectionMap& map, const Points& g, std::size_t bin_
 }
 
 void accumulate_rows(const BinnedSamples& samples, const float* rows, const float* direction_z,
-                     std::size_t group, const BinSums& result) {
-  HWY_DYNAMIC_DISPATCH(accumulate_rows)(samples, rows, direction_z, group, result);
+                     std::size_t group, const BinSums& result, std::size_t columns) {
+  HWY_DYNAMIC_DISPATCH(accumulate_rows)(samples, rows, direction_z, group, result, columns);
 }
 
 void accumulate_weights(const float* xi, const std::int32_t* bins, const float* weights,

@@ -28,7 +28,15 @@ namespace ltc::kernels {
 // Sums over the samples of one bin, a cache line wide. With a = A omega_o / |P A omega_o|,
 // x = d . omega = xi + d_z:
 //   0..8   x g_r a_c (row-major r, c)     9..11  xi a_c     12..14  a_c     15  xi
-inline constexpr std::size_t row_width = 16;
+//
+// Folded samples (ltc/folded.h) have a fourth coordinate, a_3 = u / |...|, and P a fourth column: A
+// fold(omega_o) = A omega_o + (0, alpha_y k, g) u, so that P A fold(omega_o) = P A omega_o + q u
+// with q = P (0, alpha_y k, g). Their rows have C = 4 columns in place of 3, in two cache lines:
+//   0..3C-1  x g_r a_c     3C..4C-1  xi a_c     4C..5C-1  a_c     5C  xi
+constexpr std::size_t row_width_of(std::size_t columns) {
+  return columns == 3 ? 16 : 32;
+}
+inline constexpr std::size_t row_width = row_width_of(3);
 
 enum class BinSpacing { even, graded };
 
@@ -39,24 +47,28 @@ struct ProjectionMap {
   BinSpacing spacing = BinSpacing::even;
 };
 
-// dx/dP summed over the samples of a bin (nine numbers, row-major), from the bin's row sums.
-inline void jacobian_of_sums(const ProjectionMap& map, const float* sums, float* jacobian) {
-  for (int c = 0; c < 3; ++c) {
-    jacobian[c] = map.direction_x * sums[12 + c] - sums[c];
-    jacobian[3 + c] = map.direction_y * sums[12 + c] - sums[3 + c];
+// dx/dP summed over the samples of a bin (three rows of so many columns), from the bin's row sums.
+template <int columns = 3>
+void jacobian_of_sums(const ProjectionMap& map, const float* sums, float* jacobian) {
+  for (int c = 0; c < columns; ++c) {
+    jacobian[c] = map.direction_x * sums[4 * columns + c] - sums[c];
+    jacobian[columns + c] = map.direction_y * sums[4 * columns + c] - sums[columns + c];
     // (d_z - x f_z) a with f_z = 1 + g_z and x = xi + d_z: the two d_z cancel on paper, not in
     // floating point.
-    jacobian[6 + c] = -sums[9 + c] - sums[6 + c];
+    jacobian[2 * columns + c] = -sums[3 * columns + c] - sums[2 * columns + c];
   }
 }
 
-// P, row-major, of a lobe of these roughnesses.
+// P, row-major, of a lobe of these roughnesses; the column q and the u of each sample, of folded
+// lobes, else null.
 struct FrameMatrix {
   const float* p;
   float alpha_x, alpha_y;
+  const float* q = nullptr;
+  const float* u = nullptr;
 };
 
-// Offsets of samples, and a row each: 16 floats, the factors above without x and xi.
+// Offsets of samples, and a row each: the factors above without x and xi.
 struct SampleRows {
   float* gx;
   float* gy;
@@ -89,9 +101,10 @@ struct BinSums {
 };
 
 // Adds each sample's row, times its factors, to the sums of its bin, along `group` <=
-// directions_at_once directions whose z are `direction_z`. The caller zeroes the result.
+// directions_at_once directions whose z are `direction_z`. The caller zeroes the result. Rows of 3
+// or, folded, 4 `columns`.
 void accumulate_rows(const BinnedSamples& samples, const float* rows, const float* direction_z,
-                     std::size_t group, const BinSums& result);
+                     std::size_t group, const BinSums& result, std::size_t columns = 3);
 
 // Adds weight w and w xi of each sample to its bin; `sums` holds bin_count pairs (w, w xi).
 // `scratch` holds 2 count floats.
@@ -120,10 +133,12 @@ struct DirectionBins {
   const std::int32_t* populations;
   std::size_t bin_count;  // a multiple of 16
   std::size_t count;      // of all samples
+  std::size_t columns = 3;
 };
 
-// What one direction adds to the model (quantile_model.h): `gradient` row_width floats, the last 7
-// unused; `hessian` 9 rows of row_width floats, likewise. All are added to.
+// What one direction adds to the model (quantile_model.h): `gradient` row_width_of(columns) floats,
+// those after the first 3 columns unused; `hessian` 3 columns rows of as many, likewise. All are
+// added to.
 struct DirectionSums {
   float* gradient;
   float* hessian;
@@ -131,7 +146,7 @@ struct DirectionSums {
 };
 
 // Compares the binned LTC with the target's quantiles and accumulates loss, gradient and curvature.
-// `scratch` holds (4 + row_width) bin_count floats.
+// `scratch` holds (4 + row_width_of(columns)) bin_count floats.
 void reduce_direction(const DirectionBins& of, const TargetCells& target, float smoothing,
                       float* scratch, DirectionSums& result);
 

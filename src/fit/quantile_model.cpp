@@ -13,8 +13,6 @@
 namespace ltc {
 namespace {
 
-constexpr std::size_t row_width = kernels::row_width;
-
 // Where bins and starts lie is decided by a subset of the target's samples.
 constexpr std::size_t subset_stride = 8;
 
@@ -248,11 +246,11 @@ namespace {
 using kernels::directions_at_once;
 
 // Each sample's row as often as it counts.
-void multiply_rows(const CosineSet& cosines, AlignedFloats& rows) {
+void multiply_rows(const CosineSet& cosines, std::size_t width, AlignedFloats& rows) {
   for (std::size_t i = 0; i < cosines.multiplicity.size(); ++i) {
     const auto factor = static_cast<float>(cosines.multiplicity[i]);
-    float* row = rows.data() + i * row_width;
-    for (std::size_t entry = 0; entry < row_width; ++entry)
+    float* row = rows.data() + i * width;
+    for (std::size_t entry = 0; entry < width; ++entry)
       row[entry] *= factor;
   }
 }
@@ -271,6 +269,7 @@ void count_with_multiplicity(const CosineSet& cosines, std::size_t group, std::s
 }
 
 // The rows of all samples, summed into the bins of each of `maps`.
+template <std::size_t columns>
 void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, const CosineSet& cosines,
                    std::size_t bins, ModelWorkspace& workspace) {
   const std::size_t count = cosines.size();
@@ -281,48 +280,53 @@ void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, const Co
         *maps[member], {workspace.gx.data(), workspace.gy.data(), workspace.gz.data(), count}, bins,
         workspace.xi.data() + member * count, workspace.bins.data() + member * count);
   }
-  std::fill_n(workspace.sums.data(), maps.size() * bins * row_width, 0.0f);
+  std::fill_n(workspace.sums.data(), maps.size() * bins * kernels::row_width_of(columns), 0.0f);
   std::fill_n(workspace.populations.data(), maps.size() * bins, 0);
   kernels::accumulate_rows({workspace.xi.data(), workspace.bins.data(), count, bins},
                            workspace.rows.data(), direction_z.data(), maps.size(),
-                           {workspace.sums.data(), workspace.populations.data()});
+                           {workspace.sums.data(), workspace.populations.data()}, columns);
   if (!cosines.multiplicity.empty())
     count_with_multiplicity(cosines, maps.size(), bins, workspace);
 }
 
 // Adds what one direction's bins say.
+template <int numbers>
 void add_direction(const kernels::DirectionBins& of, const kernels::TargetCells& cells,
-                   double smoothing, AlignedFloats& scratch, ModelValue& value) {
+                   double smoothing, AlignedFloats& scratch, ModelValueOf<numbers>& value) {
+  constexpr std::size_t row_width = kernels::row_width_of(numbers / 3);
   alignas(vector_alignment) float gradient[row_width] = {};
-  alignas(vector_alignment) float hessian[9 * row_width] = {};
+  alignas(vector_alignment) float hessian[numbers * row_width] = {};
   kernels::DirectionSums result{gradient, hessian, 0};
   kernels::reduce_direction(of, cells, static_cast<float>(smoothing), scratch.data(), result);
   // In double from direction to direction: the scale of P is a direction of zero curvature, and
   // only rounding may say otherwise.
   value.loss += result.loss;
-  for (int row = 0; row < 9; ++row) {
+  for (int row = 0; row < numbers; ++row) {
     value.gradient[row] += gradient[row];
-    for (int column = 0; column < 9; ++column)
+    for (int column = 0; column < numbers; ++column)
       value.curvature(row, column) += hessian[row * row_width + column];
   }
 }
 
-}  // namespace
-
-void evaluate_model(const ModelPoint& point, ModelWorkspace& workspace, ModelValue& value) {
+template <int numbers>
+void evaluate(const ModelPoint& point, const FoldedColumn* fold, ModelWorkspace& workspace,
+              ModelValueOf<numbers>& value) {
+  constexpr std::size_t columns = numbers / 3, width = kernels::row_width_of(columns);
   const CosineSet& cosines = point.cosines;
   const TargetQuantiles& target = point.target;
   const std::size_t count = cosines.size(), total = cosines.total(), bins = target.bin_count();
-  workspace.reserve(count, bins);
+  workspace.reserve(count, bins, columns);
   float p[9];
   for (int i = 0; i < 9; ++i)
     p[i] = static_cast<float>(point.frame_matrix(i / 3, i % 3));
+  const Eigen::Vector3f q = fold ? fold->q.cast<float>().eval() : Eigen::Vector3f::Zero();
   kernels::transform_samples(
       {p, static_cast<float>(point.frame.lobe.alpha_x),
-       static_cast<float>(point.frame.lobe.alpha_y)},
+       static_cast<float>(point.frame.lobe.alpha_y), fold ? q.data() : nullptr,
+       fold ? fold->u.data() : nullptr},
       {cosines.x.data(), cosines.y.data(), cosines.z.data(), count},
       {workspace.gx.data(), workspace.gy.data(), workspace.gz.data(), workspace.rows.data()});
-  multiply_rows(cosines, workspace.rows);
+  multiply_rows(cosines, width, workspace.rows);
   value.gradient.setZero();
   value.curvature.setZero();
   value.loss = 0;
@@ -333,12 +337,12 @@ void evaluate_model(const ModelPoint& point, ModelWorkspace& workspace, ModelVal
     std::size_t group = 0;
     for (; group < directions_at_once && k < target.direction_count(); k += point.direction_stride)
       maps[group++] = &target.map(k);
-    sum_into_bins({maps.data(), group}, cosines, bins, workspace);
+    sum_into_bins<columns>({maps.data(), group}, cosines, bins, workspace);
     for (std::size_t member = 0; member < group; ++member)
-      add_direction({*maps[member], workspace.sums.data() + member * bins * row_width,
-                     workspace.populations.data() + member * bins, bins, total},
-                    target.cells(first + member * point.direction_stride), point.smoothing,
-                    workspace.scratch, value);
+      add_direction<numbers>({*maps[member], workspace.sums.data() + member * bins * width,
+                              workspace.populations.data() + member * bins, bins, total, columns},
+                             target.cells(first + member * point.direction_stride), point.smoothing,
+                             workspace.scratch, value);
     directions += group;
   }
   const double share = 1 / (static_cast<double>(total) * static_cast<double>(directions));
@@ -347,19 +351,31 @@ void evaluate_model(const ModelPoint& point, ModelWorkspace& workspace, ModelVal
   value.curvature *= share;
 }
 
-void ModelWorkspace::reserve(std::size_t samples, std::size_t bin_count) {
-  if (gx.size() < samples) {
+}  // namespace
+
+void evaluate_model(const ModelPoint& point, ModelWorkspace& workspace, ModelValue& value) {
+  evaluate<9>(point, nullptr, workspace, value);
+}
+
+void evaluate_model(const ModelPoint& point, const FoldedColumn& fold, ModelWorkspace& workspace,
+                    FoldedModelValue& value) {
+  evaluate<12>(point, &fold, workspace, value);
+}
+
+void ModelWorkspace::reserve(std::size_t samples, std::size_t bin_count, std::size_t columns) {
+  const std::size_t width = kernels::row_width_of(columns);
+  if (gx.size() < samples)
     for (AlignedFloats* array : {&gx, &gy, &gz})
       array->resize(samples);
-    rows.resize(samples * row_width);
-  }
+  if (rows.size() < samples * width)
+    rows.resize(samples * width);
   if (xi.size() < directions_at_once * samples) {
     xi.resize(directions_at_once * samples);
     bins.resize(directions_at_once * samples);
   }
-  if (populations.size() < directions_at_once * bin_count) {
-    sums.resize(directions_at_once * bin_count * row_width);
-    scratch.resize(bin_count * (4 + row_width));
+  if (sums.size() < directions_at_once * bin_count * width) {
+    sums.resize(directions_at_once * bin_count * width);
+    scratch.resize(bin_count * (4 + width));
     populations.resize(directions_at_once * bin_count);
   }
 }

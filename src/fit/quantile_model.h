@@ -124,15 +124,21 @@ class TargetQuantiles {
   AlignedFloats pairs_;  // of the samples
 };
 
-struct ModelValue {
+// Of so many numbers: nine, or twelve of folded lobes.
+template <int numbers>
+struct ModelValueOf {
   double loss = 0;
-  Vector9 gradient;   // with respect to P, row-major
-  Matrix9 curvature;  // symmetric, positive semidefinite
+  Eigen::Matrix<double, numbers, 1> gradient;         // with respect to P, row-major
+  Eigen::Matrix<double, numbers, numbers> curvature;  // symmetric, positive semidefinite
 };
+using ModelValue = ModelValueOf<9>;
+// Of a folded lobe (ltc/folded.h): with respect to the 3 x 4 matrix (P q), row-major, that takes
+// (A omega_o, u) to the lobe, q = P (0, alpha_y k, g).
+using FoldedModelValue = ModelValueOf<12>;
 
 // Everything an evaluation writes to; one a thread, reused from entry to entry.
 struct ModelWorkspace {
-  void reserve(std::size_t samples, std::size_t bin_count);
+  void reserve(std::size_t samples, std::size_t bin_count, std::size_t columns = 3);
 
   AlignedFloats gx, gy, gz, rows, xi, sums, scratch;
   AlignedVector<std::int32_t> bins, populations;
@@ -149,5 +155,13 @@ struct ModelPoint {
   double smoothing;
 };
 void evaluate_model(const ModelPoint& point, ModelWorkspace& workspace, ModelValue& value);
+
+// The same of a folded lobe: its q, and u of every sample.
+struct FoldedColumn {
+  Eigen::Vector3d q;
+  const AlignedFloats& u;
+};
+void evaluate_model(const ModelPoint& point, const FoldedColumn& fold, ModelWorkspace& workspace,
+                    FoldedModelValue& value);
 
 }  // namespace ltc

@@ -12,6 +12,7 @@
 
 #include "brdf/lobe.h"
 #include "brdf/lobe_sampler.h"
+#include "ltc/folded.h"
 
 namespace ltc {
 
@@ -50,7 +51,8 @@ class AreaLightJudge {
   // horizon is cut off, as GGX reflects none of it. NaN for a matrix or an amplitude that is not
   // finite, or a matrix without an inverse.
   AreaLightError error(const Eigen::Matrix3d& matrix,
-                       std::optional<double> amplitude = std::nullopt) const;
+                       std::optional<double> amplitude = std::nullopt, const Fold& fold = {},
+                       const Creases& creases = {}) const;
 
   // What is judged against: corners of the rectangles, relative to the shaded point in the tangent
   // frame, and the share of the lobe's light that comes from each.

@@ -59,14 +59,19 @@ void HeldOutJudge::sort_target(const Eigen::Vector3f& direction, const hwy::Sort
 }
 
 void HeldOutJudge::transform(const LobeFrame& frame, const Eigen::Matrix3d& matrix,
-                             Points& points) const {
+                             const Fold& fold, const Creases& creases, Points& points) const {
   const Eigen::Matrix3d p = frame.from_matrix(matrix) *
                             Eigen::Vector3d(frame.lobe.alpha_x, frame.lobe.alpha_y, 1).asDiagonal();
   const double p00 = p(0, 0), p01 = p(0, 1), p02 = p(0, 2);
   const double p10 = p(1, 0), p11 = p(1, 1), p12 = p(1, 2);
   const double p20 = p(2, 0), p21 = p(2, 1), p22 = p(2, 2);
   for (std::size_t i = 0; i < cosines_.size(); ++i) {
-    const double x = cosines_.x[i], y = cosines_.y[i], z = cosines_.z[i];
+    double x = cosines_.x[i], y = cosines_.y[i], z = cosines_.z[i];
+    if (!creases.empty()) {
+      const double u = crease_distance({x, y, z}, creases);
+      y += fold.k * u;
+      z += fold.g * u;
+    }
     const double fx = p00 * x + p01 * y + p02 * z;
     const double fy = p10 * x + p11 * y + p12 * z;
     const double fz = p20 * x + p21 * y + p22 * z;
@@ -92,10 +97,10 @@ void HeldOutJudge::set_lobe(const Lobe& lobe) {
   spread_ /= static_cast<double>(directions_.size());
 }
 
-double HeldOutJudge::loss(const Eigen::Matrix3d& matrix) {
+double HeldOutJudge::loss(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases) {
   if (!matrix.allFinite())
     return none;
-  transform(*frame_, matrix, points_);
+  transform(*frame_, matrix, fold, creases, points_);
   double distance = 0;
   const hwy::Sorter sorter;
   for (std::size_t k = 0; k < directions_.size(); ++k) {
@@ -107,14 +112,15 @@ double HeldOutJudge::loss(const Eigen::Matrix3d& matrix) {
 }
 
 PairJudgement HeldOutJudge::judge_pair(const Lobe& lobe, const Eigen::Matrix3d& a,
-                                       const Eigen::Matrix3d& b) {
+                                       const Eigen::Matrix3d& b, const Fold& fold,
+                                       const Creases& creases) {
   const LobeFrame frame(lobe);
   sample_target(frame);
   const bool has_a = a.allFinite(), has_b = b.allFinite();
   if (has_a)
-    transform(frame, a, points_);
+    transform(frame, a, fold, creases, points_);
   if (has_b)
-    transform(frame, b, points_b_);
+    transform(frame, b, {}, {}, points_b_);
   PairJudgement sum{has_a ? 0 : none, has_b ? 0 : none, has_a && has_b ? 0 : none, 0};
   const hwy::Sorter sorter;
   for (const Eigen::Vector3d& direction : directions_) {

@@ -18,8 +18,9 @@
 #include "judge/lobe_invariants.h"
 #include "judge/matrix_invariants.h"
 #include "judge/shader_inverse.h"
-#include "ltc/ltsd.h"
+#include "ltc/folded.h"
 #include "table/entry_text.h"
+#include "table/field_table.h"
 #include "table/symmetry.h"
 
 namespace ltc {
@@ -94,6 +95,7 @@ InvariantResult not_checked(std::string name, double limit, std::string_view rea
 }
 
 constexpr std::string_view not_in_file = "not in the file";
+constexpr std::string_view more_than_matrix = "a folded lobe is more than its matrix";
 
 // Of the whole table, not of entries.
 InvariantResult check_shapes(const Table& table) {
@@ -182,6 +184,8 @@ class Checks {
   InvariantResult alignment() const {
     constexpr const char* name = "alignment";
     constexpr double any_angle = 180;
+    if (is_folded(table_))
+      return not_checked(name, limits_.alignment_degrees, more_than_matrix);
     if (limits_.alignment_degrees >= any_angle)
       return not_checked(name, limits_.alignment_degrees, why_not_limited(table_));
     return judged(name, limits_.alignment_degrees, invertible_,
@@ -207,13 +211,25 @@ class Checks {
                   inversion_errors(table_, invertible_, "inverses", run_, seen));
   }
 
+  // Of folded fields alone.
+  InvariantResult one_to_one() const {
+    constexpr bool at_most = false;
+    double sum = 0;
+    for (const double h : creases_of(table_))
+      sum += h;
+    return judged(
+        "fold one to one", 0, finite_,
+        [&](std::size_t flat) { return 1 - sum * fold_at(table_, flat).g; }, at_most);
+  }
+
   InvariantResult below_horizon() const {
     constexpr double whole_lobe = 1;
     Measurement measurement("below horizon", limits_.below_horizon, true, invertible_);
     measurement.largest = whole_lobe;
     for (std::size_t flat = 0; flat < invertible_.size(); ++flat)
       if (invertible_[flat])
-        measurement.values[flat] = share_below_horizon(table_.matrix_at(flat));
+        measurement.values[flat] =
+            share_below_horizon(table_.matrix_at(flat), fold_at(table_, flat), creases_of(table_));
     return judge(table_.grid, measurement);
   }
 
@@ -252,6 +268,8 @@ class Checks {
   }
 
   InvariantResult neighbours() {
+    if (is_folded(table_))
+      return not_checked("neighbours", limits_.neighbour_excess, more_than_matrix);
     std::vector<bool> with_neighbour = invertible_;
     for (std::size_t flat = 0; flat < with_neighbour.size(); ++flat)
       if (std::isnan(lobes().neighbour_excess[flat]))
@@ -338,21 +356,24 @@ std::vector<InvariantResult> check_invariants(const Table& table, const Invarian
   if (!shapes.passed)
     return {shapes};
   Checks checks(table, limits, run, contents);
-  return {shapes,
-          checks.finite(),
-          checks.determinant(),
-          checks.condition(),
-          checks.zeros(),
-          checks.upward(),
-          checks.unit_scale(),
-          checks.alignment(),
-          checks.half_precision(),
-          checks.inverse(),
-          checks.below_horizon(),
-          checks.albedo_range(),
-          checks.albedo_quadrature(),
-          checks.loss(),
-          checks.neighbours()};
+  std::vector<InvariantResult> results = {shapes,
+                                          checks.finite(),
+                                          checks.determinant(),
+                                          checks.condition(),
+                                          checks.zeros(),
+                                          checks.upward(),
+                                          checks.unit_scale(),
+                                          checks.alignment(),
+                                          checks.half_precision(),
+                                          checks.inverse(),
+                                          checks.below_horizon(),
+                                          checks.albedo_range(),
+                                          checks.albedo_quadrature(),
+                                          checks.loss(),
+                                          checks.neighbours()};
+  if (is_folded(table))
+    results.push_back(checks.one_to_one());
+  return results;
 }
 
 }  // namespace ltc

@@ -16,7 +16,8 @@
 #include "fit/fit_table.h"
 #include "fit/solver.h"
 #include "judge/quality_summary.h"
-#include "ltc/ltsd.h"
+#include "ltc/folded.h"
+#include "table/field_table.h"
 #include "table/query_range.h"
 
 namespace ltc {
@@ -45,8 +46,9 @@ HeldOutJudge node_judge(const QualitySettings& settings, std::size_t flat) {
 
 // By judge_pair, which holds one direction at a time: what set_lobe would keep of all of them is
 // megabytes, and asking the system for them anew for every lobe takes as long as the judging.
-double relative_loss(HeldOutJudge judge, const Lobe& lobe, const Eigen::Matrix3d& matrix) {
-  const PairJudgement judgement = judge.judge_pair(lobe, matrix, matrix);
+double relative_loss(HeldOutJudge judge, const Lobe& lobe, const Eigen::Matrix3d& matrix,
+                     const Fold& fold = {}, const Creases& creases = {}) {
+  const PairJudgement judgement = judge.judge_pair(lobe, matrix, matrix, fold, creases);
   return judgement.loss_a / judgement.spread;
 }
 
@@ -61,16 +63,20 @@ QueryQuality judge_query(const Table& table, const QualitySettings& settings,
   if (state != QueryState::judged)
     return left_out(state);
   area_light.set_lobe(floor.lobe, query);
-  return {QueryState::judged, relative_loss(query_judge(settings, query), floor.lobe, found.matrix),
-          area_light.error(found.matrix), area_light.error(found.matrix, found.amplitude),
-          share_below_horizon(found.matrix)};
+  return {QueryState::judged,
+          relative_loss(query_judge(settings, query), floor.lobe, found.matrix, found.fold,
+                        found.creases),
+          area_light.error(found.matrix, std::nullopt, found.fold, found.creases),
+          area_light.error(found.matrix, found.amplitude, found.fold, found.creases),
+          share_below_horizon(found.matrix, found.fold, found.creases)};
 }
 
 Statistics nodes_below_horizon(const Table& table) {
   std::vector<double> shares(table.grid.size(), nan);
   for (std::size_t flat = 0; flat < shares.size(); ++flat)
     if (has_values(table.status[flat]))
-      shares[flat] = share_below_horizon(table.matrix_at(flat));
+      shares[flat] =
+          share_below_horizon(table.matrix_at(flat), fold_at(table, flat), creases_of(table));
   return statistics_of(shares);
 }
 
@@ -97,8 +103,8 @@ std::vector<double> judge_nodes(const Table& table, const QualitySettings& setti
   const std::vector<std::size_t> nodes = nodes_to_judge(table, settings);
   parallel_for_each("judge nodes", nodes.size(), run, [&](std::size_t i) {
     const std::size_t flat = nodes[i];
-    losses[flat] =
-        relative_loss(node_judge(settings, flat), table.grid.lobe(flat), table.matrix_at(flat));
+    losses[flat] = relative_loss(node_judge(settings, flat), table.grid.lobe(flat),
+                                 table.matrix_at(flat), fold_at(table, flat), creases_of(table));
   });
   return losses;
 }

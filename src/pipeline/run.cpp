@@ -155,12 +155,20 @@ void require_formats(const Config& config) {
     throw InputError(fmt::format(
         "field.loss = {} without a field: field.size is 0; expected the most numbers it may have",
         config.field.loss));
-  for (const Format& format : formats())
+  if (config.field.folded && config.field.size == 0)
+    throw InputError(
+        "field.folded without a field: field.size is 0; expected the numbers that it may have");
+  for (const Format& format : formats()) {
+    if (format.is_asked(config) && !(OutputSettings{}.*format.asked) && config.field.folded &&
+        !format.of_folded)
+      throw InputError(
+          fmt::format("{}, which [output] asks for, cannot hold a folded field", format.name));
     if (format.is_asked(config) && !(OutputSettings{}.*format.asked))
       if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);
           !why.empty())
         throw InputError(fmt::format("{}, which [output] asks for, cannot hold this table: it {}",
                                      format.name, why));
+  }
 }
 
 // Fits the table and writes its files, or leaves a checkpoint to go on from.

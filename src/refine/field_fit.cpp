@@ -135,22 +135,31 @@ Start start_of(const WeightedLobes& lobes, double alpha_min, const QuerySampling
         request.progress = run.progress;
         fitted[i] = solver->fit(request, *workspace, nullptr).matrix;
       });
-  FieldSystem system(some, alpha_min, sampling, start_shift);
+  FieldSystem system(some, alpha_min, {}, sampling, start_shift);
   Start start{matrix_pool(start_degree), {}};
   system.set_terms(start.terms, run);
   start.coefficients = system.nearest_to(fitted, run);
   return start;
 }
 
+// A fold to begin with: without one, neither sign is better than the other.
+constexpr double first_kappa = -0.8;
+void bend(Start& start) {
+  start.terms.push_back({FieldPart::kappa, 0, 1, 0, 0, 1});
+  start.coefficients.conservativeResize(start.coefficients.size() + 1);
+  start.coefficients[start.coefficients.size() - 1] = first_kappa;
+}
+
 // Terms and coefficients under way, with the model of the loss at them.
 class Descent {
  public:
   Descent(const WeightedLobes& fitted, const WeightedLobes& held_out, double alpha_min,
-          const FieldSettings& settings, const QuerySampling& sampling, const RunContext& run)
+          const Creases& creases, const FieldSettings& settings, const QuerySampling& sampling,
+          const RunContext& run)
       : settings_(settings),
         run_(run),
-        system_(fitted, alpha_min, sampling, fitted_shift),
-        judge_(held_out, alpha_min, sampling, held_out_shift) {}
+        system_(fitted, alpha_min, creases, sampling, fitted_shift),
+        judge_(held_out, alpha_min, creases, sampling, held_out_shift) {}
 
   std::size_t size() const { return terms_.size(); }
   int steps() const { return steps_; }
@@ -368,17 +377,20 @@ Field fit_field(double alpha_min, const LobeModel& model, const std::vector<Quer
   const WeightedLobes held_out =
       queries_held_out(alpha_min, model, asked, judging, lobes.lobes.size());
   const auto size = static_cast<std::size_t>(settings.size);
-  const std::vector<FieldTerm> pool = matrix_pool_of_size(pool_size(size));
+  const Creases creases = settings.folded ? usual_creases : Creases{};
+  const std::vector<FieldTerm> pool = matrix_pool_of_size(pool_size(size), settings.folded);
   result.queries = lobes.lobes.size();
   result.pool = pool.size();
-  Field field{alpha_min, &model, {}, {}, {}};
-  const Start start = start_of(lobes, alpha_min, judging.sampling, run);
+  Field field{alpha_min, &model, {}, creases, {}, {}};
+  Start start = start_of(lobes, alpha_min, judging.sampling, run);
+  if (settings.folded)
+    bend(start);
   {
     const std::size_t evaluations = static_cast<std::size_t>(settings.steps) + pool_steps + 4;
     const Stage stage(run, "field",
                       evaluations * lobes.lobes.size() +
                           static_cast<std::size_t>(settings.steps) * held_out.lobes.size());
-    Descent descent(lobes, held_out, alpha_min, settings, judging.sampling, run);
+    Descent descent(lobes, held_out, alpha_min, creases, settings, judging.sampling, run);
     descent.start(start, pool);
     descent.step(pool_steps);
     descent.prune(static_cast<std::size_t>(
@@ -419,11 +431,11 @@ Field contracted_field(const Field& field, double alpha_x, double alpha_y, std::
       static_cast<std::size_t>(std::lround(albedo_share * static_cast<double>(size)));
   const Contracted contracted = contracted_terms(field, material);
   FieldSettings settings;
-  Descent descent(lobes, held_out, field.alpha_min, settings, QuerySampling{}, run);
+  Descent descent(lobes, held_out, field.alpha_min, field.creases, settings, QuerySampling{}, run);
   descent.start(contracted.matrix, contracted.matrix.terms);
   result.whole_loss = descent.held_out_loss();
   descent.prune(size - of_albedo);
-  Field small{field.alpha_min, field.model, {}, {}, {}};
+  Field small{field.alpha_min, field.model, {}, field.creases, {}, {}};
   result.loss = finish(descent, material_steps, small);
   result.steps = descent.steps();
   result.queries = lobes.lobes.size();

@@ -6,6 +6,7 @@
 namespace ltc {
 
 struct FieldSettings {
+  bool folded = false;    // with a fold (ltc/folded.h)
   int size = 0;           // numbers of the matrix, [0, 8192]; 0: no field but a table of fits
   int albedo_size = 600;  // numbers of amplitude and Fresnel term together, [2, 2000]
   double loss = 0;   // the smallest field with at most this held-out loss is sought, [0, 1]; 0: no

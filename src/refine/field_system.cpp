@@ -24,9 +24,11 @@ constexpr int start_rounds = 4;
 
 }  // namespace
 
-FieldSystem::FieldSystem(const WeightedLobes& asked, double alpha_min,
+FieldSystem::FieldSystem(const WeightedLobes& asked, double alpha_min, const Creases& creases,
                          const QuerySampling& sampling, double shift)
-    : meter_(sampling, shift) {
+    : creases_(creases), meter_(sampling, shift) {
+  if (!creases.empty())
+    meter_.set_creases(creases);
   queries_.reserve(asked.lobes.size());
   for (std::size_t i = 0; i < asked.lobes.size(); ++i) {
     const FieldVariables at(fold(asked.lobes[i]).lobe, alpha_min);
@@ -34,7 +36,7 @@ FieldSystem::FieldSystem(const WeightedLobes& asked, double alpha_min,
     Query query{at, {}, flattened(directions.constant), asked.weights[i]};
     // M = Q T diag(alpha, s_y, 1) = Q P diag(alpha_x, alpha_y, 1).
     const Eigen::Vector3d scale(1, at.width_y / at.lobe.alpha_y, 1);
-    for (std::size_t part = 0; part < parts; ++part)
+    for (std::size_t part = 0; part < matrix_parts; ++part)
       query.directions.col(static_cast<Eigen::Index>(part)) =
           flattened(directions.left * directions.direction[part] * scale.asDiagonal());
     queries_.push_back(query);
@@ -48,7 +50,7 @@ void FieldSystem::set_terms(const std::vector<FieldTerm>& terms, const RunContex
   first_.fill(0);
   std::size_t most_degree = 0;
   for (const FieldTerm& term : terms) {
-    ++first_[static_cast<std::size_t>(term.part) + 1];
+    ++first_[number_of(term.part) + 1];
     for (const std::uint8_t degree : {term.alpha, term.lambda, term.radius, term.angle, term.order})
       most_degree = std::max<std::size_t>(most_degree, degree);
   }
@@ -64,6 +66,47 @@ void FieldSystem::set_terms(const std::vector<FieldTerm>& terms, const RunContex
   });
 }
 
+// In the first values, those that there are directions of; the others do not count.
+template <int numbers, int count>
+void FieldSystem::set_model(Model& model, const Eigen::Matrix<double, numbers, count>& directions,
+                            double share, const ModelValueOf<numbers>& value) {
+  model.loss = share * value.loss;
+  model.gradient.setZero();
+  model.curvature.setZero();
+  model.gradient.template head<count>() = share * (directions.transpose() * value.gradient);
+  model.curvature.template topLeftCorner<count, count>() =
+      share * (directions.transpose() * value.curvature * directions);
+}
+
+void FieldSystem::evaluate_folded(std::size_t q, const PartVector& values, double share,
+                                  double expected, const Eigen::Matrix3d& p,
+                                  QueryMeter::Buffers& buffers) {
+  const FieldVariables& at = queries_[q].at;
+  const FieldDirections of(at);
+  // L T = P diag(1, alpha_y/s_y, 1), with what keeps the determinant positive.
+  const Eigen::Matrix3d lt = p * Eigen::Vector3d(1, at.lobe.alpha_y / at.width_y, 1).asDiagonal();
+  const double alpha_2 = at.alpha * at.alpha;
+  const Eigen::Vector3d bend(0, alpha_2 * values[matrix_parts],
+                             std::min(values[matrix_parts + 1], most_fold(creases_)));
+  Eigen::Matrix<double, 12, parts> directions;
+  directions.setZero();
+  const auto set = [&](std::size_t part, const Eigen::Vector3d& column) {
+    for (int row = 0; row < 3; ++row)
+      directions(4 * row + 3, static_cast<Eigen::Index>(part)) = column[row];
+  };
+  for (std::size_t part = 0; part < matrix_parts; ++part) {
+    const auto column = static_cast<Eigen::Index>(part);
+    for (int i = 0; i < 9; ++i)
+      directions(4 * (i / 3) + i % 3, column) = queries_[q].directions(i, column);
+    set(part, of.left * of.direction[part] * bend);
+  }
+  set(matrix_parts, alpha_2 * lt.col(1));
+  set(matrix_parts + 1, lt.col(2));
+  FoldedModelValue value;
+  meter_.measure(LobeFrame(at.lobe), q, p, lt * bend, expected, buffers, value);
+  set_model(evaluated_[q], directions, share, value);
+}
+
 void FieldSystem::evaluate_query(std::size_t q, const PartVector& values,
                                  QueryMeter::Buffers& buffers) {
   const Query& query = queries_[q];
@@ -76,13 +119,14 @@ void FieldSystem::evaluate_query(std::size_t q, const PartVector& values,
     model.loss = std::numeric_limits<double>::infinity();
     return;
   }
-  ModelValue value;
   const double expected = model.loss > 0 ? model.loss / share : spread;
+  if (!creases_.empty()) {
+    evaluate_folded(q, values, share, expected, p, buffers);
+    return;
+  }
+  ModelValue value;
   meter_.measure(frame, q, p, expected, buffers, value);
-  model.loss = share * value.loss;
-  model.gradient.noalias() = share * (query.directions.transpose() * value.gradient);
-  model.curvature.noalias() =
-      share * (query.directions.transpose() * value.curvature * query.directions);
+  set_model(model, query.directions, share, value);
 }
 
 Eigen::MatrixXf FieldSystem::values_at(const Eigen::VectorXd& coefficients,
@@ -165,10 +209,8 @@ Eigen::VectorXd FieldSystem::nearest_to(const std::vector<Eigen::Matrix3d>& fitt
         meter_.measure(frame, q, p, start_smoothing * value.loss, buffers, value);
         const Vector9 wanted = flattened(p) - query.constant;
         const Vector9 bent = value.curvature * wanted;
-        models_[q].loss = share * value.loss;
-        models_[q].gradient = -share * (query.directions.transpose() * bent);
-        models_[q].curvature =
-            share * (query.directions.transpose() * value.curvature * query.directions);
+        value.gradient = -bent;
+        set_model(models_[q], query.directions, share, value);
         cost[q] = 0.5 * share * wanted.dot(bent);
       });
   Eigen::VectorXd coefficients;

@@ -2,6 +2,10 @@
 // Copyright (c) 2026 the ltcfit authors
 // The loss of many look-ups as a function of a field's coefficients, to second order.
 //
+// Of a folded field the model is one of twelve numbers, (P q) (fit/quantile_model.h): q = L T (0,
+// alpha^2 kappa, gamma)^T is linear in the fold's values and in the matrix's, so that V changes
+// from step to step.
+//
 // A query's matrix is linear in the values of the field's twelve functions there, P = P_1 + sum_a
 // f_a V_a (field/field.h; but for what keeps determinants positive), and each function is linear in
 // its own coefficients, f_a = phi_a . c_a. With the query's quantile model (gradient g and
@@ -25,8 +29,8 @@ namespace ltc {
 class FieldSystem {
  public:
   // Lobes are folded; systems of different `shift` in [0, 1) share no samples.
-  FieldSystem(const WeightedLobes& asked, double alpha_min, const QuerySampling& sampling,
-              double shift);
+  FieldSystem(const WeightedLobes& asked, double alpha_min, const Creases& creases,
+              const QuerySampling& sampling, double shift);
 
   std::size_t size() const { return queries_.size(); }
 
@@ -54,14 +58,19 @@ class FieldSystem {
                                   std::size_t terms);
 
  private:
-  static constexpr std::size_t parts = field_matrix_part_count;
+  // Of the matrix and the fold, without those of the albedo, which stand between in a field.
+  static constexpr std::size_t matrix_parts = field_matrix_part_count,
+                               parts = matrix_parts + field_fold_part_count;
+  static std::size_t number_of(FieldPart part) {
+    return static_cast<std::size_t>(part) - (is_of_fold(part) ? 2 : 0);
+  }
   using PartVector = Eigen::Matrix<double, parts, 1>;
   using PartMatrix = Eigen::Matrix<double, parts, parts>;
   struct Query {
     FieldVariables at;
-    Eigen::Matrix<double, 9, parts> directions;  // V
-    Vector9 constant;                            // P_1
-    double weight;                               // c_p
+    Eigen::Matrix<double, 9, matrix_parts> directions;  // V
+    Vector9 constant;                                   // P_1
+    double weight;                                      // c_p
   };
   // In the functions' values, times c_p / spread.
   struct Model {
@@ -70,11 +79,17 @@ class FieldSystem {
     PartMatrix curvature;
   };
   void evaluate_query(std::size_t q, const PartVector& values, QueryMeter::Buffers& buffers);
+  void evaluate_folded(std::size_t q, const PartVector& values, double share, double expected,
+                       const Eigen::Matrix3d& p, QueryMeter::Buffers& buffers);
+  template <int numbers, int count>
+  static void set_model(Model& model, const Eigen::Matrix<double, numbers, count>& directions,
+                        double share, const ModelValueOf<numbers>& value);
   // G and g with every query's model times a weight.
   Equations assemble(const std::vector<double>& weights, const RunContext& run) const;
   // The functions' values at every query.
   Eigen::MatrixXf values_at(const Eigen::VectorXd& coefficients, const RunContext& run) const;
 
+  Creases creases_;
   QueryMeter meter_;
   std::vector<Query> queries_;
   std::vector<BinnedTarget> targets_;

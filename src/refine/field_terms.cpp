@@ -37,18 +37,23 @@ std::vector<FieldTerm> pool(FieldPart first, FieldPart last, std::size_t degree,
 
 }  // namespace
 
-std::vector<FieldTerm> matrix_pool(std::size_t degree) {
-  return pool(FieldPart::a, FieldPart::m21, degree, most_matrix_angle);
+std::vector<FieldTerm> matrix_pool(std::size_t degree, bool is_folded) {
+  std::vector<FieldTerm> terms = pool(FieldPart::a, FieldPart::m21, degree, most_matrix_angle);
+  if (is_folded)
+    for (const FieldTerm& term :
+         pool(FieldPart::kappa, FieldPart::gamma, degree, most_matrix_angle))
+      terms.push_back(term);
+  return terms;
 }
 
 std::vector<FieldTerm> albedo_pool(std::size_t degree) {
   return pool(FieldPart::amplitude, FieldPart::view_cosine, degree, degree);
 }
 
-std::vector<FieldTerm> matrix_pool_of_size(std::size_t count) {
+std::vector<FieldTerm> matrix_pool_of_size(std::size_t count, bool is_folded) {
   std::vector<FieldTerm> terms;
   for (std::size_t degree = 2; terms.size() < count && degree <= field_most_degree; ++degree)
-    terms = matrix_pool(degree);
+    terms = matrix_pool(degree, is_folded);
   return terms;
 }
 

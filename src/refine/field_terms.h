@@ -12,13 +12,13 @@
 
 namespace ltc {
 
-// All allowed terms of the matrix, or of amplitude and Fresnel term, of at most a total degree (the
-// orders of the isotropic parts' own factors counted too), in order.
-std::vector<FieldTerm> matrix_pool(std::size_t degree);
+// All allowed terms of the matrix, with those of a fold if asked, or of amplitude and Fresnel term,
+// of at most a total degree (the orders of the isotropic parts' own factors counted too), in order.
+std::vector<FieldTerm> matrix_pool(std::size_t degree, bool is_folded = false);
 std::vector<FieldTerm> albedo_pool(std::size_t degree);
 
 // The pool of the least degree with at least `count` terms, or the largest there is.
-std::vector<FieldTerm> matrix_pool_of_size(std::size_t count);
+std::vector<FieldTerm> matrix_pool_of_size(std::size_t count, bool is_folded = false);
 
 // Which of n coefficients to keep, `count` of them: of the quadratic
 //     x^T curvature x / 2 - right^T x

@@ -27,6 +27,7 @@ QueryMeter::QueryMeter(const QuerySampling& sampling, double shift) {
     const double turned = shift + static_cast<double>(set) / set_count;
     sets_.push_back({make_cosine_set(static_cast<std::size_t>(sampling.samples), turned),
                      make_target_lattice(static_cast<std::size_t>(sampling.target_samples), turned),
+                     {},
                      {}});
     const Eigen::Matrix3d rotation = random_rotation(random);
     for (const Eigen::Vector3d& d :
@@ -54,6 +55,23 @@ void QueryMeter::measure(const LobeFrame& frame, std::size_t query, const Eigen:
   evaluate_model(
       {frame, p, set_of(query).cosines, buffers.quantiles, 1, smoothing_share * expected},
       buffers.model, value);
+}
+
+void QueryMeter::set_creases(const Creases& creases) {
+  for (SampleSet& set : sets_) {
+    set.u.resize(set.cosines.size());
+    for (std::size_t i = 0; i < set.u.size(); ++i)
+      set.u[i] = static_cast<float>(
+          crease_distance({set.cosines.x[i], set.cosines.y[i], set.cosines.z[i]}, creases));
+  }
+}
+
+void QueryMeter::measure(const LobeFrame& frame, std::size_t query, const Eigen::Matrix3d& p,
+                         const Eigen::Vector3d& q, double expected, Buffers& buffers,
+                         FoldedModelValue& value) const {
+  const SampleSet& set = set_of(query);
+  evaluate_model({frame, p, set.cosines, buffers.quantiles, 1, smoothing_share * expected},
+                 {q, set.u}, buffers.model, value);
 }
 
 std::size_t QueryMeter::target_bytes(const QuerySampling& sampling) {

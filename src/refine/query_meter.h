@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fit/quantile_model.h"
+#include "ltc/folded.h"
 #include "refine/refine_settings.h"
 
 namespace ltc {
@@ -36,6 +37,13 @@ class QueryMeter {
   void measure(const LobeFrame& frame, std::size_t query, const Eigen::Matrix3d& p, double expected,
                Buffers& buffers, ModelValue& value) const;
 
+  // The same of a folded lobe, whose samples are folded along these creases; `q` as in
+  // FoldedColumn.
+  void set_creases(const Creases& creases);
+  void measure(const LobeFrame& frame, std::size_t query, const Eigen::Matrix3d& p,
+               const Eigen::Vector3d& q, double expected, Buffers& buffers,
+               FoldedModelValue& value) const;
+
   // What a kept target takes.
   static std::size_t target_bytes(const QuerySampling& sampling);
 
@@ -44,6 +52,7 @@ class QueryMeter {
     CosineSet cosines;
     TargetLattice lattice;
     std::vector<Eigen::Vector3f> directions;
+    AlignedFloats u;  // of the cosines, where there are creases
   };
   const SampleSet& set_of(std::size_t query) const { return sets_[query % sets_.size()]; }
 

@@ -188,11 +188,31 @@ double fetched(const Eigen::Matrix3d& matrix, const Light& light) {
                                 inverse * light.half_v);
 }
 
+// A fold takes polygons to polygons, and nothing else to anything simple: disks are polygons of the
+// same area, within 1e-4 of their share, lines the strip of their outline.
+double folded_share(const FoldedCosine& lobe, const Light& light) {
+  constexpr int edges = 128;
+  const std::optional<Light> flat = light.flat();
+  if (!flat)
+    return 0;
+  std::vector<Eigen::Vector3d> vertices = flat->corners();
+  if (vertices.empty()) {
+    const double turn = 2 * std::numbers::pi / edges, scale = std::sqrt(turn / std::sin(turn));
+    for (int i = 0; i < edges; ++i)
+      vertices.push_back(flat->center + scale * (std::cos(i * turn) * flat->half_u +
+                                                 std::sin(i * turn) * flat->half_v));
+  }
+  return std::abs(lobe.integrate_polygon(clip_to_upper_hemisphere(vertices)));
+}
+
 }  // namespace
 
-double ltc_share(const Eigen::Matrix3d& matrix, const Light& light) {
+double ltc_share(const Eigen::Matrix3d& matrix, const Light& light, const Fold& fold,
+                 const Creases& creases) {
   if (!is_seen(light))
     return 0;
+  if (!creases.empty())
+    return folded_share(FoldedCosine(matrix, fold, creases), light);
   if (light.shape == LightShape::line) {
     const double radius = light.half_v.norm();
     return light.flat() ? ltc_share(matrix, Line{light.center - light.half_u,
@@ -213,7 +233,7 @@ double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light
   const double albedo = f0 * found.amplitude + (1 - f0) * found.fresnel;
   if (!found.matrix.allFinite() || found.matrix.determinant() == 0 || !std::isfinite(albedo))
     return std::numeric_limits<double>::quiet_NaN();
-  const double share = ltc_share(found.matrix, light);
+  const double share = ltc_share(found.matrix, light, found.fold, found.creases);
   return share > 0 ? albedo * share * fetched(found.matrix, light) : 0;
 }
 

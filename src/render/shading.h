@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "brdf/lattice.h"
+#include "ltc/folded.h"
 #include "render/sphere_scene.h"
 #include "table/table.h"
 
@@ -24,7 +25,8 @@ struct SphereMaterial {
 // polygons by equation 11 of Heitz et al. 2016, of disks and spheres by ltc/disk.h, of lines by
 // ltc/line.h. The light is cut off at the point's horizon first, and then, transformed, at that of
 // the cosine. Throws InputError where the origin lies within the light.
-double ltc_share(const Eigen::Matrix3d& matrix, const Light& light);
+double ltc_share(const Eigen::Matrix3d& matrix, const Light& light, const Fold& fold = {},
+                 const Creases& creases = {});
 
 // (F0 amplitude + (1 - F0) fresnel) times that, and times what is fetched from the light's texture
 // (render/light_texture.h). NaN where the table has no value or a matrix without an inverse.

@@ -30,4 +30,8 @@ Table table_of_field(const Field& field, Grid grid, Storage storage, const RunCo
   return table;
 }
 
+Fold fold_at(const Table& table, std::size_t flat) {
+  return is_folded(table) ? lobe_of(*table.field, table.grid.lobe(flat)).fold : Fold{};
+}
+
 }  // namespace ltc

@@ -15,4 +15,7 @@ namespace ltc {
 // Throws InputError for storage inverse where the grid is not isotropic.
 Table table_of_field(const Field& field, Grid grid, Storage storage, const RunContext& run = {});
 
+// The fold of a node's lobe; none where the table has no folded field.
+Fold fold_at(const Table& table, std::size_t flat);
+
 }  // namespace ltc

@@ -58,7 +58,8 @@ LookUp look_up(const Table& table, const Lobe& lobe) {
   if (table.field) {
     const FoldedLobe folded = fold(lobe);
     const FieldLobe found = lobe_of(*table.field, folded.lobe);
-    return {folded.unfold * found.matrix, found.amplitude, found.fresnel};
+    return {folded.unfold * found.matrix, found.amplitude, found.fresnel, found.fold,
+            table.field->creases};
   }
   const FoldedLobe folded = Reduction(table.grid).fold(lobe);
   const Interpolation corners = interpolation(table.grid, folded.lobe);

@@ -31,6 +31,9 @@ struct LookUp {
   Eigen::Matrix3d matrix;
   double amplitude;
   double fresnel;
+  // Of a folded field: the lobe is that of M after the fold (ltc/folded.h).
+  Fold fold = {};
+  Creases creases = {};
 };
 LookUp look_up(const Table& table, const Lobe& lobe);
 

@@ -74,4 +74,12 @@ struct Table {
   Eigen::Matrix3d matrix_at(std::size_t flat) const;
 };
 
+// Whether its lobes are folded (ltc/folded.h): then matrices alone are none.
+inline bool is_folded(const Table& table) {
+  return table.field && !table.field->creases.empty();
+}
+inline Creases creases_of(const Table& table) {
+  return table.field ? table.field->creases : Creases{};
+}
+
 }  // namespace ltc

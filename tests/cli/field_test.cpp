@@ -108,6 +108,41 @@ TEST(FieldCommands, ContractsToOneMaterial) {
                2, {"x.h5", "no suffix of a field"});
 }
 
+TEST(FieldCommands, AFoldedFieldIsJudgedAndRenderedAndRefusedElsewhere) {
+  const TemporaryDirectory folder;
+  Arguments folded = make_field;
+  folded[2] = LTCFIT_SOURCE_DIR "/config/folded-field.toml";
+  const ProgramResult made = run_ltcfit(folded, folder.path());
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(names_in(folder / "t"), std::vector<std::string>{"ltc_field.json"});
+  const ProgramResult judged =
+      run_ltcfit({"validate", "t/ltc_field.json", "--set", "quality.queries=20"}, folder.path());
+  // So small a field need not pass.
+  EXPECT_LE(judged.exit_code, 1) << judged.err;
+  EXPECT_NE(judged.out.find("fold one to one"), std::string::npos) << judged.out;
+  for (const char* light : {"rectangle", "star", "disk", "sphere", "line"})
+    EXPECT_EQ(run_ltcfit({"render", "t/ltc_field.json", "--size", "16", "--samples", "16",
+                          "--light", light, "-o", "r"},
+                         folder.path())
+                  .exit_code,
+              0)
+        << light;
+  for (const Arguments& arguments :
+       std::vector<Arguments>{{"fit", "--as-in", "t/ltc_field.json", "--entry", "1,1,1,1"},
+                              {"convert", "t/ltc_field.json", "-o", "t.npy"},
+                              {"bake", "t/ltc_field.json", "-o", "b.h5"},
+                              {"view", "t/ltc_field.json"},
+                              {"lookup", "t/ltc_field.json", "-q", "q.csv"},
+                              {"diff", "t/ltc_field.json", "t/ltc_field.json"}})
+    expect_error(run_ltcfit(arguments, folder.path()), 2, {"t/ltc_field.json", "a folded field"});
+  expect_error(run_ltcfit({"validate", "t/ltc_field.json", "--report", "p"}, folder.path()), 2,
+               {"t/ltc_field.json", "a folded field"});
+  folded.insert(folded.end(), {"--set", "output.header=true"});
+  expect_error(run_ltcfit(folded, folder.path()), 2, {"C header", "cannot hold a folded field"});
+  expect_error(run_ltcfit({"generate", "-o", "u", "--set", "field.folded=true"}, folder.path()), 2,
+               {"field.folded", "field.size is 0"});
+}
+
 TEST(FieldCommands, WhatIsNoFieldIsRefused) {
   const TemporaryDirectory folder;
   ASSERT_EQ(run_ltcfit(make_field, folder.path()).exit_code, 0);

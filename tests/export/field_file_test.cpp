@@ -55,6 +55,44 @@ TEST(FieldFile, JsonIsReadBackAsWritten) {
   }
 }
 
+Field folded_field() {
+  Field field = synthetic_field();
+  field.creases = {0.3, 1};
+  field.terms.push_back({FieldPart::kappa, 0, 1, 0, 0, 1});
+  field.terms.push_back({FieldPart::gamma, 0, 1, 0, 0, 0});
+  field.coefficients.insert(field.coefficients.end(), {-0.8f, 0.25f});
+  return field;
+}
+
+TEST(FieldFile, FoldedOnesAreReadWhereTheyAreKnown) {
+  const test::TemporaryDirectory folder;
+  const Table table = table_of_field(folded_field(), Grid::paper(3), Storage::matrix);
+  write_table(table, folder / "t_field.json", {});
+  ReadAs folded;
+  folded.folded = true;
+  EXPECT_EQ(read_table(folder / "t_field.json", folded).field, folded_field());
+  expect_refusal([&] { read_table(folder / "t_field.json", {}); },
+                 {"t_field.json", "a folded field"});
+  for (const char* name : {"t.h5", "t.glsl", "t.h", "t.0.exr", "t.npy"})
+    expect_refusal([&] { write_table(table, folder / name, {}); },
+                   {name, "cannot hold a folded field"});
+}
+
+TEST(FieldFile, CreasesAreIncreasingNumbers) {
+  Json json =
+      Json::parse(encode_field(table_of_field(folded_field(), Grid::paper(3), Storage::matrix)));
+  for (const Json& creases : {Json::array(), Json{0.4, 0.4}, Json{-1}, Json{"a"}, Json(0.4)}) {
+    json["creases"] = creases;
+    expect_refused(json, "creases are");
+  }
+  // Without creases there is no fold, and another basis, which older readers know.
+  json.erase("creases");
+  expect_refused(json, "basis is \"chebyshev-polar-folded\"; allowed: \"chebyshev-polar\"");
+  json["basis"] = "chebyshev-polar";
+  EXPECT_EQ(decode_field(json.dump(), "x.json").field->terms.size(),
+            synthetic_field().terms.size());
+}
+
 TEST(FieldFile, Hdf5HasTheFieldBesideTheNodes) {
   const test::TemporaryDirectory folder;
   write_table(field_table(), folder / "t.h5", {});

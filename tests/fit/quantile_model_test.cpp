@@ -147,6 +147,23 @@ TEST(QuantileModel, GradientAgreesWithTheReference) {
   }
 }
 
+TEST(QuantileModel, WithoutAFoldTheFoldedOneIsThePlainOne) {
+  for (const Lobe& lobe : test::all_lobes()) {
+    Model model(lobe);
+    const Eigen::Matrix3d p = model.away_from_minimum();
+    const ModelValue plain = model(p, 1e-3);
+    FoldedModelValue folded;
+    const AlignedFloats u(model.cosines.size(), 0.3f);
+    evaluate_model({model.frame, p, model.cosines, model.quantiles, 1, 1e-3},
+                   {Eigen::Vector3d::Zero(), u}, model.workspace, folded);
+    // The fourth column adds nothing: the same bits.
+    EXPECT_EQ(folded.loss, plain.loss);
+    for (int i = 0; i < 9; ++i)
+      EXPECT_EQ(folded.gradient[4 * (i / 3) + i % 3], plain.gradient[i]) << test::describe(lobe);
+    EXPECT_NE(folded.gradient[3], 0);
+  }
+}
+
 TEST(QuantileModel, ScaleMovesNothing) {
   for (const Lobe& lobe : test::all_lobes()) {
     Model model(lobe);
