@@ -208,6 +208,8 @@ void write_basis(Writer& writer, const Degrees& most) {
 void write_parts(Writer& writer, const Field& field) {
   for (std::size_t i = 0; i < field_part_count; ++i) {
     const auto part = static_cast<FieldPart>(i);
+    if (is_of_fold(part))
+      continue;  // of folded fields, which code knows nothing of
     const bool of_albedo = is_of_albedo(part);
     // By order and degree in lambda a statement each, so that none is too long for a compiler.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<Product>> groups;

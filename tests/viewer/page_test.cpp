@@ -147,7 +147,7 @@ TEST_F(View, RefusesWhatItCannotReadOrWrite) {
   folder_.write("cut.h5", table.substr(0, table.size() / 2));
   for (const auto& [arguments, code, part] :
        {std::tuple<std::vector<std::string>, int, const char*>({"t.h5", "-o", "t.h5"}, 2,
-                                                               "same file as TABLE t.h5"),
+                                                               "expected a file that ends in .html"),
         {{"t.h5", "-o", "none/x.html"}, 3, "no folder none"},
         {{"t.h5", "-o", ""}, 2, "expected a file"},
         {{"none.h5"}, 3, "none.h5"},
