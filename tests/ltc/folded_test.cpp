@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "ltc/ltsd.h"
-#include "statistics.h"
+#include "ltc/sphere_chi_squared.h"
 
 namespace ltc {
 namespace {
@@ -221,43 +221,19 @@ TEST(Folded, TheSignIsThatOfTheWinding) {
   }
 }
 
-test::ChiSquared sampler_against(const FoldedCosine& sampler, const FoldedCosine& expected) {
-  constexpr int kHeights = 24, kAzimuths = 36, kSubdivisions = 30, kSamples = 100'000;
-  std::vector<double> counts(kHeights * kAzimuths, 0.0), wanted(kHeights * kAzimuths, 0.0);
-  const int heights = kHeights * kSubdivisions, azimuths = kAzimuths * kSubdivisions;
-  for (int i = 0; i < heights; ++i)
-    for (int j = 0; j < azimuths; ++j) {
-      const double z = 1 - 2 * (i + 0.5) / heights, turn = 2 * kPi * (j + 0.5) / azimuths;
-      const double sine = std::sqrt(1 - z * z);
-      wanted[i / kSubdivisions * kAzimuths + j / kSubdivisions] +=
-          kSamples * 4 * kPi / (heights * azimuths) *
-          expected.density({sine * std::cos(turn), sine * std::sin(turn), z});
-    }
-  test::Uniform uniform(4);
-  for (int i = 0; i < kSamples; ++i) {
-    const double u_height = uniform();
-    const Vector3d omega = sampler.sample(u_height, uniform());
-    const double turn = std::atan2(omega.y(), omega.x()) / (2 * kPi);
-    const int height = std::min(kHeights - 1, static_cast<int>((1 - omega.z()) / 2 * kHeights));
-    const int azimuth =
-        std::min(kAzimuths - 1, static_cast<int>((turn - std::floor(turn)) * kAzimuths));
-    counts[height * kAzimuths + azimuth] += 1;
-  }
-  return test::chi_squared(counts, wanted);
-}
-
 // Seven tests more of kChiSquaredDeviations' significance, and one of a wrong density.
 TEST(FoldedChiSquared, SamplerFollowsTheDensity) {
+  const test::SphereBins bins{24, 36, 30};
   for (const Shape& shape : shapes) {
     const FoldedCosine lobe(some_matrix(), shape.fold, shape.creases);
-    const test::ChiSquared right = sampler_against(lobe, lobe);
+    const test::ChiSquared right = test::sampler_against(lobe, lobe, bins);
     EXPECT_TRUE(right.accepted()) << right.deviations();
     EXPECT_GT(right.degrees_of_freedom, 50u);
   }
   const Shape& shape = shapes.front();
   const FoldedCosine lobe(some_matrix(), shape.fold, shape.creases);
   const FoldedCosine wrong(some_matrix(), {shape.fold.k * 1.1, shape.fold.g}, shape.creases);
-  EXPECT_FALSE(sampler_against(lobe, wrong).accepted());
+  EXPECT_FALSE(test::sampler_against(lobe, wrong, bins).accepted());
 }
 
 TEST(Folded, RefusesWhatIsNotOneToOne) {

@@ -14,7 +14,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "statistics.h"
+#include "ltc/sphere_chi_squared.h"
 
 namespace ltc {
 namespace {
@@ -212,34 +212,10 @@ TEST(LinearlyTransformed, RefusesAMatrixWithoutInverse) {
   EXPECT_THROW(LinearlyTransformed{Eigen::Matrix3d::Constant(std::nan(""))}, InputError);
 }
 
-constexpr int kHeights = 16, kAzimuths = 24;
-
-// Samples of one matrix against the density of another.
 test::ChiSquared sampler_against(const Eigen::Matrix3d& sampled, const Eigen::Matrix3d& expected,
                                  Original original) {
-  constexpr int kSubdivisions = 40, kSamples = 100'000;
-  const LinearlyTransformed sampler(sampled, original), density(expected, original);
-  std::vector<double> counts(kHeights * kAzimuths, 0.0), wanted(kHeights * kAzimuths, 0.0);
-  const int heights = kHeights * kSubdivisions, azimuths = kAzimuths * kSubdivisions;
-  for (int i = 0; i < heights; ++i)
-    for (int j = 0; j < azimuths; ++j) {
-      const double z = 1 - 2 * (i + 0.5) / heights, azimuth = 2 * kPi * (j + 0.5) / azimuths;
-      const double sine = std::sqrt(1 - z * z);
-      wanted[i / kSubdivisions * kAzimuths + j / kSubdivisions] +=
-          kSamples * 4 * kPi / (heights * azimuths) *
-          density.density({sine * std::cos(azimuth), sine * std::sin(azimuth), z});
-    }
-  test::Uniform uniform(4);
-  for (int i = 0; i < kSamples; ++i) {
-    const double u_height = uniform();
-    const Eigen::Vector3d omega = sampler.sample(u_height, uniform());
-    const double turn = std::atan2(omega.y(), omega.x()) / (2 * kPi);
-    const int height = std::min(kHeights - 1, static_cast<int>((1 - omega.z()) / 2 * kHeights));
-    const int azimuth =
-        std::min(kAzimuths - 1, static_cast<int>((turn - std::floor(turn)) * kAzimuths));
-    counts[height * kAzimuths + azimuth] += 1;
-  }
-  return test::chi_squared(counts, wanted);
+  return test::sampler_against(LinearlyTransformed(sampled, original),
+                               LinearlyTransformed(expected, original));
 }
 
 TEST(LinearlyTransformedChiSquared, SamplerFollowsTheDensity) {
