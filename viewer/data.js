@@ -58,6 +58,21 @@ function foldedLobe(view, alphas, table) {
            theta: Math.atan2(Math.hypot(x, y), view[2]), phi: Math.atan2(y, x) };
 }
 
+// What of a material lies beyond a table's axes, as `ltcfit render` says it: look-ups clamp it, and
+// so show another material.
+function clampingOf(table, alphas) {
+  if (table.field) return '';
+  const lobe = foldedLobe([0, 0, 1], alphas, table);
+  const names = table.both_alphas ? ['alpha_x', 'alpha_y'] : ['alpha', 'lambda'];
+  const clamped = [lobe.alpha, lobe.second].flatMap((value, axis) => {
+    const taken = clamp(value, table.first[axis], table.last[axis]);
+    return Math.abs(taken - value) > 1e-9
+      ? [`${names[axis]} ${Number(value.toPrecision(3))} to ${Number(taken.toPrecision(3))}`] : [];
+  });
+  return clamped.length
+    ? `Beyond the axes of ${table.name}, clamped: ${clamped.join(', ')}.` : '';
+}
+
 // The nearest node, as `ltcfit fit --entry` takes it.
 function nearestEntry(table, lobe) {
   return [lobe.alpha, lobe.second, lobe.theta, lobe.phi]

@@ -190,7 +190,9 @@ class Viewer {
   }
 
   tell() {
-    const said = [...this.notes, ...this.sentences, faultOfLight(this.state)].filter(Boolean);
+    const clampings = this.data.tables.map((table) => clampingOf(table, alphasOf(this.state)));
+    const said = [...this.notes, ...this.sentences, ...clampings, faultOfLight(this.state)]
+      .filter(Boolean);
     const unfiltered = this.data.tables.some((table) => !table.field && !table.filtered);
     if (this.state.lookup === 'filter' && unfiltered)
       said.push('This browser does not filter 32-bit textures (OES_texture_float_linear): looked up ' +

@@ -404,6 +404,22 @@ TEST_F(Viewer, TellsWhatLiesUnderThePointer) {
 
 // ---- What cannot work ----
 
+TEST_F(Viewer, WhatLiesBeyondTheAxesIsSaid) {
+  Grid isotropic = Grid::paper({4, 1, 5, 1});
+  isotropic.lambda = Axis::make(1, 1, 1, Warp::linear);
+  isotropic.phi = Axis::make(0, 0, 1, Warp::linear);
+  const Table turned = testing::synthetic_table(isotropic, Storage::roughness_scaled);
+  write_page({{"t.h5", &turned}});
+  const json results =
+      drive({opened("#alpha_x=0.1&alpha_y=0.4"), is_there, evaluated("beyond", status_text),
+             opened("#alpha_x=0.4&alpha_y=0.4"), is_there, evaluated("within", status_text)});
+  EXPECT_NE(results["beyond"].get<std::string>().find(
+                "Beyond the axes of t.h5, clamped: lambda 0.25 to 1."),
+            std::string::npos)
+      << results["beyond"];
+  EXPECT_EQ(results["within"].get<std::string>().find("Beyond"), std::string::npos);
+}
+
 TEST_F(Viewer, ACutPageSaysSo) {
   write_page({{"nodes.h5", &nodes_}});
   const std::string page = read_file(folder_ / "page.html");
