@@ -110,6 +110,8 @@ std::vector<Key> field_keys() {
       key("field.albedo_size", [](Draft& d) { return &d.config.field.albedo_size; }, {10, 2000}, "numbers of its amplitude and Fresnel term together"),
       key("field.loss", [](Draft& d) { return &d.config.field.loss; }, {0, 1}, "the smallest field whose held-out loss is at most this, of at most field.size; 0: of that size"),
       key("field.folded", [](Draft& d) { return &d.config.field.folded; }, "a fold before the field's matrix, lobes that bend (docs/folded.md)"),
+      key("field.crease", [](Draft& d) { return &d.config.field.crease; }, {0, 10}, "where the fold has its creases, |x| = crease z of the cosine"),
+      key("field.second_crease", [](Draft& d) { return &d.config.field.second_crease; }, {0, 10}, "a second pair of creases, above the first; 0: none"),
       key("field.half", [](Draft& d) { return &d.config.field.half; }, "coefficients that 16 bits hold, rounded while they are fitted"),
       key("field.queries", [](Draft& d) { return &d.config.field.queries; }, {1000, 1'000'000}, "look-ups that the field is fitted to"),
       key("field.edge_share", [](Draft& d) { return &d.config.field.edge_share; }, {0, 1}, "share of them spread over the whole domain, its edges too, not as asked for"),

@@ -158,6 +158,11 @@ void require_formats(const Config& config) {
   if (config.field.folded && config.field.size == 0)
     throw InputError(
         "field.folded without a field: field.size is 0; expected the numbers that it may have");
+  if (const FieldSettings& field = config.field;
+      field.second_crease > 0 && field.second_crease <= field.crease)
+    throw InputError(
+        fmt::format("field.second_crease = {} is not above field.crease = {}; expected more, or 0",
+                    field.second_crease, field.crease));
   for (const Format& format : formats()) {
     if (format.is_asked(config) && !(OutputSettings{}.*format.asked) && config.field.folded &&
         !format.of_folded)

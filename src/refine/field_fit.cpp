@@ -142,6 +142,15 @@ Start start_of(const WeightedLobes& lobes, double alpha_min, const QuerySampling
   return start;
 }
 
+Creases creases_of(const FieldSettings& settings) {
+  if (!settings.folded)
+    return {};
+  Creases creases = {settings.crease};
+  if (settings.second_crease > 0)
+    creases.push_back(settings.second_crease);
+  return creases;
+}
+
 // A fold to begin with: without one, neither sign is better than the other.
 constexpr double first_kappa = -0.8;
 void bend(Start& start) {
@@ -377,7 +386,7 @@ Field fit_field(double alpha_min, const LobeModel& model, const std::vector<Quer
   const WeightedLobes held_out =
       queries_held_out(alpha_min, model, asked, judging, lobes.lobes.size());
   const auto size = static_cast<std::size_t>(settings.size);
-  const Creases creases = settings.folded ? usual_creases : Creases{};
+  const Creases creases = creases_of(settings);
   const std::vector<FieldTerm> pool = matrix_pool_of_size(pool_size(size), settings.folded);
   result.queries = lobes.lobes.size();
   result.pool = pool.size();

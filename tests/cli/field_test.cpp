@@ -139,6 +139,9 @@ TEST(FieldCommands, AFoldedFieldIsJudgedAndRenderedAndRefusedElsewhere) {
                {"t/ltc_field.json", "a folded field"});
   folded.insert(folded.end(), {"--set", "output.header=true"});
   expect_error(run_ltcfit(folded, folder.path()), 2, {"C header", "cannot hold a folded field"});
+  expect_error(
+      run_ltcfit({"generate", "-o", "u", "--set", "field.second_crease=0.3"}, folder.path()), 2,
+      {"field.second_crease = 0.3", "field.crease = 0.4"});
   expect_error(run_ltcfit({"generate", "-o", "u", "--set", "field.folded=true"}, folder.path()), 2,
                {"field.folded", "field.size is 0"});
 }

@@ -125,6 +125,9 @@ TEST(FieldFit, AFoldedFieldIsNearerThanOneWithoutAFold) {
     EXPECT_TRUE(is_one_to_one(found.fold, field.creases));
     EXPECT_EQ(found.fold == Fold{}, lambda == 1);
   }
+  settings.crease = 0.3;
+  settings.second_crease = 1;
+  EXPECT_EQ(quick_field(settings, 2).creases, two_pairs_of_creases);
   // In the plane of alpha_x nothing bends to a side.
   EXPECT_EQ(lobe_of(field, {0.8, 0.2, 1.2, 0}).fold.k, 0);
 }
