@@ -17,15 +17,7 @@ LtcLobe ltc_look_up_isotropic(sampler2D inverses, sampler2D terms, float size, v
   vec2 place = vec2(sqrt(alpha), height) * (1.0 - 1.0 / size) + vec2(0.5 / size, 0.5 / size);
   vec4 inverse = textureLod(inverses, place, 0.0);
   vec4 term = textureLod(terms, place, 0.0);
-  // M is the inverse of what is stored, so they change places.
-  LtcLobe other = ltc_lobe_of_rows(vec3(inverse.x, 0.0, inverse.z), vec3(0.0, 1.0, 0.0),
-                                   vec3(inverse.y, 0.0, inverse.w), term.x, term.y);
-  LtcLobe lobe = other;
-  lobe.m0 = other.w0;
-  lobe.m1 = other.w1;
-  lobe.m2 = other.w2;
-  lobe.w0 = other.m0;
-  lobe.w1 = other.m1;
-  lobe.w2 = other.m2;
+  LtcLobe lobe = ltc_lobe_of_inverse_rows(vec3(inverse.x, 0.0, inverse.z), vec3(0.0, 1.0, 0.0),
+                                          vec3(inverse.y, 0.0, inverse.w), term.x, term.y);
   return ltc_turned(lobe, unit.x, unit.y);
 }

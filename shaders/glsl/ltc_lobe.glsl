@@ -48,6 +48,19 @@ LtcLobe ltc_lobe_of_rows(vec3 m0, vec3 m1, vec3 m2, float amplitude, float fresn
   return lobe;
 }
 
+// The lobe of W alone: M is computed. What engines' textures hold.
+LtcLobe ltc_lobe_of_inverse_rows(vec3 w0, vec3 w1, vec3 w2, float amplitude, float fresnel) {
+  LtcLobe other = ltc_lobe_of_rows(w0, w1, w2, amplitude, fresnel);
+  LtcLobe lobe = other;
+  lobe.m0 = other.w0;
+  lobe.m1 = other.w1;
+  lobe.m2 = other.w2;
+  lobe.w0 = other.m0;
+  lobe.w1 = other.m1;
+  lobe.w2 = other.m2;
+  return lobe;
+}
+
 // Per steradian, at a unit direction: equation (7) of Aakash et al. 2022. Integrates to 1 over the
 // sphere; the share below the horizon is that of ltc_below_horizon.
 float ltc_density(LtcLobe lobe, vec3 omega) {

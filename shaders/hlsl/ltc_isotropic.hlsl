@@ -18,15 +18,7 @@ LtcLobe ltc_look_up_isotropic(Texture2D<float4> inverses, SamplerState inverses_
   float2 place = float2(sqrt(alpha), height) * (1.0 - 1.0 / size) + float2(0.5 / size, 0.5 / size);
   float4 inverse = inverses.SampleLevel(inverses_sampler, place, 0.0);
   float4 term = terms.SampleLevel(terms_sampler, place, 0.0);
-  // M is the inverse of what is stored, so they change places.
-  LtcLobe other = ltc_lobe_of_rows(float3(inverse.x, 0.0, inverse.z), float3(0.0, 1.0, 0.0),
-                                   float3(inverse.y, 0.0, inverse.w), term.x, term.y);
-  LtcLobe lobe = other;
-  lobe.m0 = other.w0;
-  lobe.m1 = other.w1;
-  lobe.m2 = other.w2;
-  lobe.w0 = other.m0;
-  lobe.w1 = other.m1;
-  lobe.w2 = other.m2;
+  LtcLobe lobe = ltc_lobe_of_inverse_rows(float3(inverse.x, 0.0, inverse.z), float3(0.0, 1.0, 0.0),
+                                          float3(inverse.y, 0.0, inverse.w), term.x, term.y);
   return ltc_turned(lobe, unit.x, unit.y);
 }

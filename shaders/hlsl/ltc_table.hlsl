@@ -163,16 +163,7 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
   LtcLobe lobe;
   if (table.storage > 2.5) {
     // "inverse": W is what is stored.
-    lobe = ltc_lobe_of_rows(s0, s1, s2, texels.c.y, texels.c.z);
-    float3 m0 = lobe.w0;
-    float3 m1 = lobe.w1;
-    float3 m2 = lobe.w2;
-    lobe.w0 = lobe.m0;
-    lobe.w1 = lobe.m1;
-    lobe.w2 = lobe.m2;
-    lobe.m0 = m0;
-    lobe.m1 = m1;
-    lobe.m2 = m2;
+    lobe = ltc_lobe_of_inverse_rows(s0, s1, s2, texels.c.y, texels.c.z);
   } else {
     // The columns of Q, the least rotation from z to the mirror direction (-vx, -vy, vz).
     float k = 1.0 / (1.0 + v.z);

@@ -20,16 +20,8 @@ fn ltc_look_up_isotropic(inverses: texture_2d<f32>, inverses_sampler: sampler,
       vec2<f32>(0.5 / size, 0.5 / size);
   var inverse: vec4<f32> = textureSampleLevel(inverses, inverses_sampler, place, 0.0);
   var term: vec4<f32> = textureSampleLevel(terms, terms_sampler, place, 0.0);
-  // M is the inverse of what is stored, so they change places.
-  var other: LtcLobe = ltc_lobe_of_rows(vec3<f32>(inverse.x, 0.0, inverse.z), vec3<f32>(0.0, 1.0,
-      0.0),
-                                   vec3<f32>(inverse.y, 0.0, inverse.w), term.x, term.y);
-  var lobe: LtcLobe = other;
-  lobe.m0 = other.w0;
-  lobe.m1 = other.w1;
-  lobe.m2 = other.w2;
-  lobe.w0 = other.m0;
-  lobe.w1 = other.m1;
-  lobe.w2 = other.m2;
+  var lobe: LtcLobe = ltc_lobe_of_inverse_rows(vec3<f32>(inverse.x, 0.0, inverse.z), vec3<f32>(0.0,
+      1.0, 0.0),
+                                          vec3<f32>(inverse.y, 0.0, inverse.w), term.x, term.y);
   return ltc_turned(lobe, unit.x, unit.y);
 }

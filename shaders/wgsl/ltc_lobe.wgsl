@@ -50,6 +50,20 @@ fn ltc_lobe_of_rows(m0: vec3<f32>, m1: vec3<f32>, m2: vec3<f32>, amplitude: f32,
   return lobe;
 }
 
+// The lobe of W alone: M is computed. What engines' textures hold.
+fn ltc_lobe_of_inverse_rows(w0: vec3<f32>, w1: vec3<f32>, w2: vec3<f32>, amplitude: f32,
+    fresnel: f32) -> LtcLobe {
+  var other: LtcLobe = ltc_lobe_of_rows(w0, w1, w2, amplitude, fresnel);
+  var lobe: LtcLobe = other;
+  lobe.m0 = other.w0;
+  lobe.m1 = other.w1;
+  lobe.m2 = other.w2;
+  lobe.w0 = other.m0;
+  lobe.w1 = other.m1;
+  lobe.w2 = other.m2;
+  return lobe;
+}
+
 // Per steradian, at a unit direction: equation (7) of Aakash et al. 2022. Integrates to 1 over the
 // sphere; the share below the horizon is that of ltc_below_horizon.
 fn ltc_density(lobe: LtcLobe, omega: vec3<f32>) -> f32 {

@@ -161,10 +161,7 @@ FieldValues values_of(const Field& field, const FieldVariables& at) {
 }
 
 double most_fold(const Creases& creases) {
-  double sum = 0;
-  for (const double h : creases)
-    sum += h;
-  return 0.95 / sum;
+  return 0.95 / sum_of(creases);
 }
 
 Eigen::Matrix3d field_frame_matrix(const double* values, const FieldVariables& at) {

@@ -66,12 +66,10 @@ void HeldOutJudge::transform(const LobeFrame& frame, const Eigen::Matrix3d& matr
   const double p10 = p(1, 0), p11 = p(1, 1), p12 = p(1, 2);
   const double p20 = p(2, 0), p21 = p(2, 1), p22 = p(2, 2);
   for (std::size_t i = 0; i < cosines_.size(); ++i) {
-    double x = cosines_.x[i], y = cosines_.y[i], z = cosines_.z[i];
-    if (!creases.empty()) {
-      const double u = crease_distance({x, y, z}, creases);
-      y += fold.k * u;
-      z += fold.g * u;
-    }
+    Eigen::Vector3d at(cosines_.x[i], cosines_.y[i], cosines_.z[i]);
+    if (!creases.empty())
+      at = folded(at, fold, creases);
+    const double x = at.x(), y = at.y(), z = at.z();
     const double fx = p00 * x + p01 * y + p02 * z;
     const double fy = p10 * x + p11 * y + p12 * z;
     const double fz = p20 * x + p21 * y + p22 * z;

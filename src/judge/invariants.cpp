@@ -214,9 +214,7 @@ class Checks {
   // Of folded fields alone.
   InvariantResult one_to_one() const {
     constexpr bool at_most = false;
-    double sum = 0;
-    for (const double h : creases_of(table_))
-      sum += h;
+    const double sum = sum_of(creases_of(table_));
     return judged(
         "fold one to one", 0, finite_,
         [&](std::size_t flat) { return 1 - sum * fold_at(table_, flat).g; }, at_most);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.h"
 #include "ltc/ltsd.h"
@@ -120,11 +121,12 @@ void require_creases(const Creases& creases) {
 
 }  // namespace
 
+double sum_of(const Creases& creases) {
+  return std::accumulate(creases.begin(), creases.end(), 0.0);
+}
+
 bool is_one_to_one(const Fold& fold, const Creases& creases) {
-  double sum = 0;
-  for (const double h : creases)
-    sum += h;
-  return std::isfinite(fold.k) && std::isfinite(fold.g) && fold.g * sum < 1;
+  return std::isfinite(fold.k) && std::isfinite(fold.g) && fold.g * sum_of(creases) < 1;
 }
 
 double crease_distance(const Vector3d& p, const Creases& creases) {

@@ -35,6 +35,9 @@ using Creases = std::vector<double>;
 inline const Creases usual_creases = {0.4};
 inline const Creases two_pairs_of_creases = {0.3, 1.0};
 
+// Of all h, the H of the last piece.
+double sum_of(const Creases& creases);
+
 // Whether the fold is one to one: 1 - g H > 0 on every piece, k and g finite.
 bool is_one_to_one(const Fold& fold, const Creases& creases);
 

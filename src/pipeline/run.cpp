@@ -164,15 +164,15 @@ void require_formats(const Config& config) {
         fmt::format("field.second_crease = {} is not above field.crease = {}; expected more, or 0",
                     field.second_crease, field.crease));
   for (const Format& format : formats()) {
-    if (format.is_asked(config) && !(OutputSettings{}.*format.asked) && config.field.folded &&
-        !format.of_folded)
+    if (!format.is_asked(config) || OutputSettings{}.*format.asked)
+      continue;
+    if (config.field.folded && !format.of_folded)
       throw InputError(
           fmt::format("{}, which [output] asks for, cannot hold a folded field", format.name));
-    if (format.is_asked(config) && !(OutputSettings{}.*format.asked))
-      if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);
-          !why.empty())
-        throw InputError(fmt::format("{}, which [output] asks for, cannot hold this table: it {}",
-                                     format.name, why));
+    if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);
+        !why.empty())
+      throw InputError(fmt::format("{}, which [output] asks for, cannot hold this table: it {}",
+                                   format.name, why));
   }
 }
 

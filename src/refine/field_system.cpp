@@ -78,8 +78,8 @@ void FieldSystem::set_model(Model& model, const Eigen::Matrix<double, numbers, c
       share * (directions.transpose() * value.curvature * directions);
 }
 
-void FieldSystem::evaluate_folded(std::size_t q, const PartVector& values, double share,
-                                  double expected, const Eigen::Matrix3d& p,
+void FieldSystem::evaluate_folded(std::size_t q, const LobeFrame& frame, const PartVector& values,
+                                  double share, double expected, const Eigen::Matrix3d& p,
                                   QueryMeter::Buffers& buffers) {
   const FieldVariables& at = queries_[q].at;
   const FieldDirections of(at);
@@ -103,7 +103,7 @@ void FieldSystem::evaluate_folded(std::size_t q, const PartVector& values, doubl
   set(matrix_parts, alpha_2 * lt.col(1));
   set(matrix_parts + 1, lt.col(2));
   FoldedModelValue value;
-  meter_.measure(LobeFrame(at.lobe), q, p, lt * bend, expected, buffers, value);
+  meter_.measure(frame, q, p, lt * bend, expected, buffers, value);
   set_model(evaluated_[q], directions, share, value);
 }
 
@@ -121,7 +121,7 @@ void FieldSystem::evaluate_query(std::size_t q, const PartVector& values,
   }
   const double expected = model.loss > 0 ? model.loss / share : spread;
   if (!creases_.empty()) {
-    evaluate_folded(q, values, share, expected, p, buffers);
+    evaluate_folded(q, frame, values, share, expected, p, buffers);
     return;
   }
   ModelValue value;

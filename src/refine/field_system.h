@@ -79,8 +79,9 @@ class FieldSystem {
     PartMatrix curvature;
   };
   void evaluate_query(std::size_t q, const PartVector& values, QueryMeter::Buffers& buffers);
-  void evaluate_folded(std::size_t q, const PartVector& values, double share, double expected,
-                       const Eigen::Matrix3d& p, QueryMeter::Buffers& buffers);
+  void evaluate_folded(std::size_t q, const LobeFrame& frame, const PartVector& values,
+                       double share, double expected, const Eigen::Matrix3d& p,
+                       QueryMeter::Buffers& buffers);
   template <int numbers, int count>
   static void set_model(Model& model, const Eigen::Matrix<double, numbers, count>& directions,
                         double share, const ModelValueOf<numbers>& value);
