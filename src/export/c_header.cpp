@@ -235,6 +235,7 @@ std::string table_data(const Table& table) {
 std::string_view storage_code(Storage storage) {
   switch (storage) {
     case Storage::matrix:
+    case Storage::folded:  // not written
       return "";
     case Storage::inverse:
       return R"(  {

@@ -155,9 +155,6 @@ void require_formats(const Config& config) {
     throw InputError(fmt::format(
         "field.loss = {} without a field: field.size is 0; expected the most numbers it may have",
         config.field.loss));
-  if (config.field.folded && config.field.size == 0)
-    throw InputError(
-        "field.folded without a field: field.size is 0; expected the numbers that it may have");
   if (const FieldSettings& field = config.field;
       field.second_crease > 0 && field.second_crease <= field.crease)
     throw InputError(
@@ -166,9 +163,9 @@ void require_formats(const Config& config) {
   for (const Format& format : formats()) {
     if (!format.is_asked(config) || OutputSettings{}.*format.asked)
       continue;
-    if (config.field.folded && !format.of_folded)
+    if (config.storage == Storage::folded && !format.of_folded)
       throw InputError(
-          fmt::format("{}, which [output] asks for, cannot hold a folded field", format.name));
+          fmt::format("{}, which [output] asks for, cannot hold folded lobes", format.name));
     if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);
         !why.empty())
       throw InputError(fmt::format("{}, which [output] asks for, cannot hold this table: it {}",
@@ -223,7 +220,7 @@ FilesOfRun files_of_run(const Config& config, const fs::path& folder) {
   for (const Format& format : formats()) {
     TableFiles written;
     if (format.is_written(config))
-      written = format.files(prefix, resolved(config.output.layout, config.grid, config.storage));
+      written = format.files(prefix, config.grid, config.storage, config.output.layout);
     std::ranges::copy(written, std::back_inserter(files.written));
     if (format.ending_of_others)
       continue;
