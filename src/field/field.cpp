@@ -160,6 +160,13 @@ FieldValues values_of(const Field& field, const FieldVariables& at) {
   return values;
 }
 
+Fold fold_of(const FieldVariables& at, double kappa, double gamma) {
+  return {at.alpha * at.alpha * kappa / at.width_y, gamma};
+}
+double kappa_of(const FieldVariables& at, const Fold& fold) {
+  return fold.k * at.width_y / (at.alpha * at.alpha);
+}
+
 double most_fold(const Creases& creases) {
   return 0.95 / sum_of(creases);
 }
@@ -187,8 +194,8 @@ FieldLobe lobe_of(const Field& field, const Lobe& folded) {
                                  Eigen::Vector3d(at.lobe.alpha_x, at.lobe.alpha_y, 1).asDiagonal();
   Fold bend;
   if (!field.creases.empty())
-    bend = {at.alpha * at.alpha * values[index(FieldPart::kappa)] / at.width_y,
-            std::min(values[index(FieldPart::gamma)], most_fold(field.creases))};
+    bend = fold_of(at, values[index(FieldPart::kappa)],
+                   std::min(values[index(FieldPart::gamma)], most_fold(field.creases)));
   return {matrix, amplitude, amplitude * std::pow(1 - x, 5), bend};
 }
 

@@ -207,6 +207,10 @@ FieldLobe lobe_of(const Field& field, const Lobe& folded);
 // first twelve values.
 Eigen::Matrix3d field_frame_matrix(const double* values, const FieldVariables& at);
 
+// The fold of kappa and a gamma that is bounded already, and the kappa of a fold.
+Fold fold_of(const FieldVariables& at, double kappa, double gamma);
+double kappa_of(const FieldVariables& at, const Fold& fold);
+
 // The largest g of these creases.
 double most_fold(const Creases& creases);
 

@@ -7,12 +7,16 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "field/field.h"
 #include "fit/lobe_class.h"
 #include "fit/starting_points.h"
 #include "fit/workspace.h"
+#include "table/reduction.h"
+#include "table/symmetry.h"
 
 namespace ltc {
 namespace {
@@ -51,6 +55,36 @@ bool usable(const Eigen::Matrix3d& start) {
   return start.allFinite() && start.determinant() > 0;
 }
 
+// Of the fold that fits of folds try, times (1 - lambda) sin theta sin phi: that of a table's lobes
+// is between -0.2 and -1.7.
+constexpr double first_kappa = 0.8;
+
+bool is_in_first_quadrant(const Lobe& lobe) {
+  return lobe.alpha_x >= lobe.alpha_y && lobe.phi_radians >= 0 &&
+         lobe.phi_radians <= std::numbers::pi / 2;
+}
+
+// A folded lobe mirrored by an orthogonal matrix, its own determinant as positive as it was.
+FoldedStart mirrored(FoldedStart lobe, const Eigen::Matrix3d& by) {
+  lobe.matrix = by * lobe.matrix;
+  if (by.determinant() < 0) {
+    lobe.matrix.col(1) = -lobe.matrix.col(1);
+    lobe.fold.k = -lobe.fold.k;
+  }
+  return lobe;
+}
+
+// The request for a lobe's image in the first quadrant.
+FitRequest of_image(const FitRequest& request, const FoldedLobe& image) {
+  FitRequest result = request;
+  result.lobe = image.lobe;
+  for (Eigen::Matrix3d& start : result.starts)
+    start = image.unfold.transpose() * start * image.unfold;
+  for (FoldedStart& start : result.folded_starts)
+    start = mirrored(start, image.unfold.transpose());
+  return result;
+}
+
 FitResult no_result(int steps) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return {Eigen::Matrix3d::Constant(nan), nan, steps, FitOutcome::non_finite};
@@ -58,13 +92,15 @@ FitResult no_result(int steps) {
 
 }  // namespace
 
-GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target)
+GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target,
+                                     const Creases& creases)
     : settings_(settings),
       target_kind_(target),
+      creases_(creases),
       directions_(in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)))),
       bins_(bins_for(settings.samples)),
-      usual_(make_ladder(settings)),
-      graded_(make_graded_ladder(settings)) {}
+      usual_(make_ladder(settings, creases)),
+      graded_(make_graded_ladder(settings, creases)) {}
 
 const SampleLadder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
   return target_kind_ == TargetKind::weighted && (is_extreme(frame) || is_sharp(frame)) ? graded_
@@ -115,13 +151,8 @@ class GaussNewtonSolver::Fit {
         ladder_(solver.ladder_for(frame_)) {}
 
   FitResult run() {
-    see_target(Look::light);
-    if ((request_.starts.empty() || !request_.incumbent) && first_order_is_exact(frame_)) {
-      FitResult result = analytic_result();
-      result.start_abandoned = !request_.starts.empty();
-      return result;
-    }
-    return request_.incumbent ? improve(*request_.incumbent) : fit_anew();
+    const FitResult ltc = find_ltc();
+    return can_fold(ltc) ? folded(ltc) : ltc;
   }
 
  private:
@@ -134,9 +165,63 @@ class GaussNewtonSolver::Fit {
     double loss = 0;  // honest
   };
 
+  FitResult find_ltc() {
+    see_target(Look::light);
+    if ((request_.starts.empty() || !request_.incumbent) && first_order_is_exact(frame_)) {
+      FitResult result = analytic_result();
+      result.start_abandoned = !request_.starts.empty();
+      return result;
+    }
+    return request_.incumbent ? improve(*request_.incumbent) : fit_anew();
+  }
+
+  bool can_fold(const FitResult& ltc) const {
+    return !solver_.creases_.empty() && ltc.outcome != FitOutcome::analytic &&
+           ltc.outcome != FitOutcome::non_finite && frame_.lobe.alpha_x != frame_.lobe.alpha_y;
+  }
+
+  FitResult folded(const FitResult& ltc) {
+    result_ = ltc;
+    folding_ = true;
+    std::vector<Descent> descents;
+    for (const Descent& start : fold_starts(frame_.from_matrix(ltc.matrix))) {
+      const FitPhase phase{Kind::fold, static_cast<int>(descents.size())};
+      descents.push_back(descend(ladder_.coarse, start, options_of(ladder_.coarse, phase)));
+      result_.steps += descents.back().steps;
+    }
+    FitResult found = climbed(best_of(descents));
+    if (fine_loss(found) < fine_loss(ltc))
+      return found;
+    found = ltc;
+    found.steps = result_.steps;
+    return found;
+  }
+
+  // The LTC as it is and, for without a fold neither sign is better than the other, bent either
+  // way; then those of the request.
+  std::vector<Descent> fold_starts(const Eigen::Matrix3d& p) const {
+    const FieldVariables at(frame_.lobe, 0);
+    const double kappa =
+        first_kappa * (1 - at.lambda) * at.sin_theta * std::sin(frame_.lobe.phi_radians);
+    const Bend bend(frame_.lobe.alpha_y * fold_of(at, kappa, 0).k, 0);
+    std::vector<Descent> starts = {{p}};
+    if (free_fold_[0] && kappa != 0)
+      for (const double sign : {-1.0, 1.0})
+        starts.push_back({p, sign * bend});
+    for (const FoldedStart& given : request_.folded_starts) {
+      const Eigen::Matrix3d start = admissible(frame_.from_matrix(given.matrix), free_);
+      if (given.matrix.determinant() > 0 && usable(start) &&
+          is_one_to_one(given.fold, solver_.creases_))
+        starts.push_back({start,
+                          {free_fold_[0] ? frame_.lobe.alpha_y * given.fold.k : 0,
+                           std::min(given.fold.g, most_fold(solver_.creases_))}});
+    }
+    return starts;
+  }
+
   FitResult analytic_result() {
     const Eigen::Matrix3d p = admissible(frame_.first_order, free_);
-    return {frame_.to_matrix(p), loss_on(solver_.usual_.levels.back(), p), 0, FitOutcome::analytic};
+    return {frame_.to_matrix(p), loss_on(solver_.usual_.levels.back(), {p}), 0, FitOutcome::analytic};
   }
 
   FitResult fit_anew() {
@@ -183,7 +268,9 @@ class GaussNewtonSolver::Fit {
   // On the last level, whichever the climb ended on.
   double fine_loss(const FitResult& result) {
     see_target(Look::whole);
-    return loss_on(ladder_.levels.back(), frame_.from_matrix(result.matrix));
+    return loss_on(
+        ladder_.levels.back(),
+        {frame_.from_matrix(result.matrix), {frame_.lobe.alpha_y * result.fold.k, result.fold.g}});
   }
 
   // From the neighbours' solutions, where they promise more than what there is.
@@ -191,9 +278,8 @@ class GaussNewtonSolver::Fit {
     result_ = incumbent;
     // The incumbent settles on the coarse samples before it is compared on them.
     const Descent settled =
-        minimise({frame_, admissible(frame_.from_matrix(incumbent.matrix), free_), free_,
-                  ladder_.coarse.cosines, workspace_.quantiles},
-                 options_of(ladder_.coarse, {}), workspace_.model, nullptr);
+        descend(ladder_.coarse, {admissible(frame_.from_matrix(incumbent.matrix), free_)},
+                options_of(ladder_.coarse, {}), nullptr);
     result_.steps = settled.steps;
     const bool given = !request_.starts.empty();
     const Descent best =
@@ -234,14 +320,30 @@ class GaussNewtonSolver::Fit {
     return solver_.own_starts(frame_, request_.seed, workspace_);
   }
 
-  double loss_on(const SampleLevel& level, const Eigen::Matrix3d& frame_matrix) {
-    ModelValue value;
-    evaluate_model({frame_, frame_matrix, level.cosines, workspace_.quantiles,
-                    level.options.direction_stride, workspace_.quantiles.spread()},
-                   workspace_.model, value);
+  double loss_on(const SampleLevel& level, const Descent& at) {
+    const ModelPoint point{frame_, at.frame_matrix, level.cosines, workspace_.quantiles,
+                           level.options.direction_stride, workspace_.quantiles.spread()};
+    if (at.bend.isZero(0)) {
+      ModelValue value;
+      evaluate_model(point, workspace_.model, value);
+      return value.loss;
+    }
+    FoldedModelValue value;
+    evaluate_model(point, {column_of(at.frame_matrix, at.bend), level.u}, workspace_.model, value);
     return value.loss;
   }
-  double coarse_loss(const Eigen::Matrix3d& start) { return loss_on(ladder_.coarse, start); }
+  double coarse_loss(const Eigen::Matrix3d& start) { return loss_on(ladder_.coarse, {start}); }
+
+  Descent descend(const SampleLevel& level, const Descent& from, const DescentOptions& options,
+                  std::vector<FitStep>* trace) {
+    const FoldTask fold{from.bend, free_fold_, most_fold(solver_.creases_), level.u};
+    return minimise({frame_, from.frame_matrix, free_, level.cosines, workspace_.quantiles,
+                     folding_ ? &fold : nullptr},
+                    options, workspace_.model, trace);
+  }
+  Descent descend(const SampleLevel& level, const Descent& from, const DescentOptions& options) {
+    return descend(level, from, options, trace_);
+  }
 
   // The coarse loss, or what the widths alone make it at least. The model compares means of bins,
   // so that it takes a lobe far narrower than a bin for a good one wherever its mean is right; but
@@ -289,9 +391,8 @@ class GaussNewtonSolver::Fit {
     for (std::size_t i = 0; i < starts.size(); ++i) {
       if (!(std::isfinite(losses[i]) && losses[i] <= most))
         continue;
-      descents.push_back(minimise(
-          {frame_, starts[i], free_, ladder_.coarse.cosines, workspace_.quantiles},
-          options_of(ladder_.coarse, {kind, static_cast<int>(i)}), workspace_.model, trace_));
+      descents.push_back(descend(ladder_.coarse, {starts[i]},
+                                 options_of(ladder_.coarse, {kind, static_cast<int>(i)})));
       result_.steps += descents.back().steps;
     }
     return descents;
@@ -344,6 +445,7 @@ class GaussNewtonSolver::Fit {
     const Descent descent = climb(coarse);
     FitResult result = result_;
     result.matrix = frame_.to_matrix(descent.frame_matrix);
+    result.fold = {descent.bend[0] / frame_.lobe.alpha_y, descent.bend[1]};
     result.loss = descent.loss;
     result.outcome = descent.converged ? FitOutcome::converged : FitOutcome::step_limit;
     return result;
@@ -360,12 +462,11 @@ class GaussNewtonSolver::Fit {
     if (level == last && last > 0)
       --level;
     for (int phase = 0;; ++level, ++phase) {
-      DescentOptions options = options_of(levels[level], {Kind::fine, phase});
+      DescentOptions options =
+          options_of(levels[level], {folding_ ? Kind::fine_fold : Kind::fine, phase});
       if (level < last && level_needed(descent) > level)
         options.tolerance = std::max(options.tolerance, passing_tolerance);
-      descent = minimise(
-          {frame_, descent.frame_matrix, free_, levels[level].cosines, workspace_.quantiles},
-          options, workspace_.model, trace_);
+      descent = descend(levels[level], descent, options);
       result_.steps += descent.steps;
       if (level == last ||
           (level_needed(descent) <= level && !is_overfitted(descent, levels[level + 1])))
@@ -376,7 +477,7 @@ class GaussNewtonSolver::Fit {
   }
   bool is_overfitted(const Descent& descent, const SampleLevel& next) {
     return frame_.omega_v.z() < heavy_tailed_cosine &&
-           loss_on(next, descent.frame_matrix) > (1 + overfit_share) * descent.loss;
+           loss_on(next, descent) > (1 + overfit_share) * descent.loss;
   }
   std::size_t level_needed(const Descent& descent) const {
     return level_for(ladder_, descent.loss / workspace_.quantiles.spread());
@@ -389,6 +490,9 @@ class GaussNewtonSolver::Fit {
   LobeFrame frame_;
   FreeEntries free_;
   const SampleLadder& ladder_;
+  bool folding_ = false;
+  const std::array<bool, 2> free_fold_ = {
+      !looks_along_x(frame_.lobe.theta_radians, frame_.lobe.phi_radians), true};
   std::optional<Look> seen_;  // what the workspace's target is
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   FitResult result_;
@@ -396,7 +500,14 @@ class GaussNewtonSolver::Fit {
 
 FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                                  std::vector<FitStep>* trace) const {
-  return Fit(*this, request, workspace, trace).run();
+  if (creases_.empty() || is_in_first_quadrant(request.lobe))
+    return Fit(*this, request, workspace, trace).run();
+  const FoldedLobe image = ltc::fold(request.lobe);
+  FitResult result = Fit(*this, of_image(request, image), workspace, trace).run();
+  const FoldedStart back = mirrored({result.matrix, result.fold}, image.unfold);
+  result.matrix = back.matrix;
+  result.fold = back.fold;
+  return result;
 }
 
 }  // namespace ltc

@@ -70,6 +70,14 @@ std::vector<Eigen::Vector3d> turned_directions(std::size_t count, std::uint64_t 
   return directions;
 }
 
+AlignedFloats crease_distances(const CosineSet& cosines, const Creases& creases) {
+  AlignedFloats u(cosines.size());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] = static_cast<float>(
+        crease_distance({cosines.x[i], cosines.y[i], cosines.z[i]}, creases));
+  return u;
+}
+
 std::vector<Eigen::Vector3f> in_float(const std::vector<Eigen::Vector3d>& directions) {
   std::vector<Eigen::Vector3f> result;
   for (const Eigen::Vector3d& direction : directions)

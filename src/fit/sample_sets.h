@@ -14,6 +14,7 @@
 
 #include "brdf/lattice.h"
 #include "core/aligned.h"
+#include "ltc/folded.h"
 
 namespace ltc {
 
@@ -31,6 +32,10 @@ CosineSet make_cosine_set(std::size_t count, double shift = 0.0);
 
 // The same on a graded lattice: point i of n counts 2 i + 1 of n^2.
 CosineSet make_graded_cosine_set(std::size_t count);
+
+// Of every sample the u of a fold (ltc/folded.h).
+AlignedFloats crease_distances(const CosineSet& cosines, const Creases& creases);
+
 // Spherical Fibonacci directions on the upper hemisphere; the lower one adds nothing, since d and
 // -d see the same distance.
 std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count);

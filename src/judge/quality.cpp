@@ -155,6 +155,7 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, const Grid&
       random_queries(settings.range, settings.queries, settings.seed, grid.alpha_min, *grid.model);
   std::vector<QueryFloor> floors(lobes.size());
   const std::unique_ptr<Solver> solver = make_solver(settings.floor_fit);
+  const Creases creases = settings.floor_fit.creases();
   struct State {
     FitWorkspacePointer workspace;
     AreaLightJudge area_light;
@@ -173,9 +174,12 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, const Grid&
         state.area_light.set_lobe(lobes[i], i);
         QueryFloor& floor = floors[i];
         floor.lobe = lobes[i];
-        floor.matrix = solver->fit(request, *state.workspace, nullptr).matrix;
-        floor.relative_loss = relative_loss(query_judge(settings, i), lobes[i], floor.matrix);
-        floor.area_light = state.area_light.error(floor.matrix);
+        const FitResult fit = solver->fit(request, *state.workspace, nullptr);
+        floor.matrix = fit.matrix;
+        floor.fold = fit.fold;
+        floor.relative_loss =
+            relative_loss(query_judge(settings, i), lobes[i], fit.matrix, fit.fold, creases);
+        floor.area_light = state.area_light.error(fit.matrix, std::nullopt, fit.fold, creases);
       });
   return floors;
 }

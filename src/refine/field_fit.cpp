@@ -143,12 +143,7 @@ Start start_of(const WeightedLobes& lobes, double alpha_min, const QuerySampling
 }
 
 Creases creases_of(const FieldSettings& settings) {
-  if (!settings.folded)
-    return {};
-  Creases creases = {settings.crease};
-  if (settings.second_crease > 0)
-    creases.push_back(settings.second_crease);
-  return creases;
+  return settings.folded ? creases_at(settings.crease, settings.second_crease) : Creases{};
 }
 
 // A fold to begin with: without one, neither sign is better than the other.

@@ -86,7 +86,7 @@ TEST(LobePicture, DensitiesIntegrateToOneOverTheHemisphere) {
         << test::describe(lobe);
     const Eigen::Matrix3d matrix = first_order_matrix(lobe);
     // An LTC may lie below the horizon in part.
-    EXPECT_NEAR(integral(ltc_density(matrix, lobe, window, side), window),
+    EXPECT_NEAR(integral(ltc_density({matrix}, lobe, window, side), window),
                 ltc_share(matrix, window), 0.02)
         << test::describe(lobe);
   }
@@ -101,7 +101,7 @@ TEST(LobePicture, DensitiesOfAZoomedWindowIntegrateToItsShare) {
     // 20,000 random samples: a standard error of 0.2 %; the picture's own error 1 %.
     EXPECT_NEAR(integral(lobe_density(lobe, window, side), window), ggx_share(lobe, window), 0.02)
         << test::describe(lobe);
-    EXPECT_NEAR(integral(ltc_density(matrix, lobe, window, side), window),
+    EXPECT_NEAR(integral(ltc_density({matrix}, lobe, window, side), window),
                 ltc_share(matrix, window), 0.02)
         << test::describe(lobe);
   }
@@ -111,7 +111,7 @@ TEST(LobePicture, DensityOfAPixelIsThatOfItsMiddleWhereTheLobeIsSmooth) {
   const Lobe lobe{0.6, 0.4, 0.5, 0.3};
   const Eigen::Matrix3d matrix = first_order_matrix(lobe);
   const LinearlyTransformed ltc(matrix);
-  const picture::Field field = ltc_density(matrix, lobe, hemisphere_window(), side);
+  const picture::Field field = ltc_density({matrix}, lobe, hemisphere_window(), side);
   // A pixel right of the middle and one above: x to the right, y up.
   const double step = 2 * std::numbers::sqrt2 / side;
   const auto direction = [](double x, double y) {
@@ -163,7 +163,7 @@ TEST(LobePicture, WindowFollowsAMisplacedLtc) {
 TEST(LobePicture, ScaleIsLogarithmicForSharpLobes) {
   const auto kind_of = [](const Lobe& lobe, const LobeWindow& window) {
     const picture::Field ggx = lobe_density(lobe, window, side);
-    return density_scale(ggx, ggx).kind();
+    return density_scale(ggx, std::array{ggx}).kind();
   };
   const LobeWindow hemisphere = hemisphere_window();
   EXPECT_EQ(kind_of({1, 1, 0, 0}, hemisphere), picture::ScaleKind::linear);
@@ -174,8 +174,8 @@ TEST(LobePicture, ScaleIsLogarithmicForSharpLobes) {
 
 TEST(LobePicture, ScaleHoldsThePeaksOfBoth) {
   const picture::Field low{2, 1, {0.5f, 1.0f}}, high{2, 1, {0.5f, 3.0f}};
-  EXPECT_FLOAT_EQ(static_cast<float>(density_scale(low, high).last()), 3);
-  EXPECT_FLOAT_EQ(static_cast<float>(density_scale(high, low).last()), 3);
+  EXPECT_FLOAT_EQ(static_cast<float>(density_scale(low, std::array{high}).last()), 3);
+  EXPECT_FLOAT_EQ(static_cast<float>(density_scale(high, std::array{low}).last()), 3);
 }
 
 TEST(LobePicture, WithoutAMatrixTheLtcIsMissing) {
