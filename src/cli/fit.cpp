@@ -258,9 +258,8 @@ void show_fit(const Arguments& arguments, const RunContext& run) {
   if (!arguments.trace.empty())
     write_file(arguments.trace, trace_csv(report));
   if (!arguments.plot.empty())
-    render_lobe(
-        lobe_panels(report.fit.lobe, pictured_lobes(report), picture_words(report)),
-        loss_chart(report))
+    render_lobe(lobe_panels(report.fit.lobe, pictured_lobes(report), picture_words(report)),
+                loss_chart(report))
         .write_png(arguments.plot);
   print_results(
       arguments.json, [&] { return report_text(report); }, [&] { return report_json(report); });

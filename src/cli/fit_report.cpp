@@ -138,7 +138,8 @@ Json json_of(const FitReport& report, const std::vector<NamedStep>& steps) {
 }
 
 Json losses_json(double fit, double held_out, double spread) {
-  return {{"fit", fit}, {"held_out", held_out}, {"spread", spread}, {"relative", held_out / spread}};
+  return {
+      {"fit", fit}, {"held_out", held_out}, {"spread", spread}, {"relative", held_out / spread}};
 }
 
 // The fold, and the LTC that is fitted beside it.
@@ -267,8 +268,7 @@ std::vector<NamedLobe> pictured_lobes(const FitReport& report) {
   const LobeFit& fit = report.fit;
   if (!fit.ltc)
     return {{"LTC", {fit.matrix}}};
-  return {{"LTC", {fit.ltc->matrix}},
-          {"folded LTC", {fit.matrix, fit.fitted.fold, fit.creases}}};
+  return {{"LTC", {fit.ltc->matrix}}, {"folded LTC", {fit.matrix, fit.fitted.fold, fit.creases}}};
 }
 
 picture::Chart loss_chart(const FitReport& report) {

@@ -73,6 +73,11 @@ std::vector<Solver> solvers_of(const Arguments& arguments) {
                                : arguments.solver.empty() || arguments.solver == choice.name;
     if (!asked_for)
       continue;
+    if (config.fit.lobe == LobeKind::folded && built_in.solver != SolverKind::gauss_newton)
+      throw InputError(fmt::format(
+          "--solver {} with fit.lobe = \"folded\"; expected gauss-newton, the only one that fits "
+          "folds",
+          choice.name));
     solvers.push_back({choice.name, config, choice.must_pass});
     if (has_config)
       solvers.back().config.fit.solver = built_in.solver;

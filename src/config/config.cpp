@@ -64,11 +64,11 @@ void check_together(const Draft& draft, const config::Sources& sources) {
         "{}: fit.lobe = \"folded\" with fit.solver = \"{}\"; expected \"gauss-newton\", the only "
         "one that fits folds",
         config::latest_source(sources, {"fit.lobe", "fit.solver"}), name_of(fit.solver)));
-  if (fit.second_crease > 0 && fit.second_crease <= fit.crease)
-    throw InputError(fmt::format(
-        "{}: fit.second_crease = {} is not above fit.crease = {}; expected more, or 0",
-        config::latest_source(sources, {"fit.second_crease", "fit.crease"}), fit.second_crease,
-        fit.crease));
+  if (fit.lobe == LobeKind::folded && fit.second_crease > 0 && fit.second_crease <= fit.crease)
+    throw InputError(
+        fmt::format("{}: fit.second_crease = {} is not above fit.crease = {}; expected more, or 0",
+                    config::latest_source(sources, {"fit.second_crease", "fit.crease"}),
+                    fit.second_crease, fit.crease));
   if (fit.sgd.lattice_samples && fit.target == TargetKind::rejection)
     throw InputError(
         fmt::format("{}: fit.sgd.lattice_samples = true with fit.target = \"rejection\"; expected "

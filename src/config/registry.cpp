@@ -25,7 +25,8 @@ std::vector<Key> axis_keys(std::string section, Member axis, std::string_view un
           "number of nodes; one node stands at the first value"),
       key(
           section + "warp", [=](Draft& d) { return &axis(d)->warp; },
-          "where the nodes are dense: linear nowhere, sqrt near first, complement-sqrt near last, half-sine as engines have theta"),
+          "where the nodes are dense: linear nowhere, sqrt near first, complement-sqrt near last, "
+          "half-sine as engines have theta"),
   };
 }
 
@@ -152,7 +153,8 @@ std::vector<Key> output_keys() {
 const std::vector<Key>& keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> keys;
-    for (const std::vector<Key>& section : {table_keys(), fit_keys(), refine_keys(), field_keys(), output_keys()})
+    for (const std::vector<Key>& section :
+         {table_keys(), fit_keys(), refine_keys(), field_keys(), output_keys()})
       keys.insert(keys.end(), section.begin(), section.end());
     return keys;
   }();

@@ -236,8 +236,7 @@ Descent descend(const DescentTask& task, const DescentOptions& options, ModelWor
       break;
     const Place trial = moved<numbers>(
         task, place, damped_step<numbers>(value, free_numbers(task, place, value), damping));
-    bool accepted =
-        trial.p.allFinite() && trial.bend.allFinite() && trial.p.determinant() > 0;
+    bool accepted = trial.p.allFinite() && trial.bend.allFinite() && trial.p.determinant() > 0;
     double trial_objective = objective;
     if (accepted) {
       evaluate_at(task, trial, options.direction_stride, smoothing_share * best.loss, workspace,

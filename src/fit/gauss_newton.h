@@ -58,9 +58,10 @@ struct DescentTask {
   const FoldTask* fold = nullptr;  // null: the lobe is not folded
 };
 
-// Minimises the model over the free entries of P, and of the fold, from the start. A weak prior (design: sharp lobes)
-// holds columns 0 and 1 near the first-order P0 where the samples say nothing. Steps that lose,
-// turn the determinant or are not finite are not taken. `trace` may be null.
+// Minimises the model over the free entries of P, and of the fold, from the start. A weak prior
+// (design: sharp lobes) holds columns 0 and 1 near the first-order P0 where the samples say
+// nothing. Steps that lose, turn the determinant or are not finite are not taken. `trace` may be
+// null.
 Descent minimise(const DescentTask& task, const DescentOptions& options, ModelWorkspace& workspace,
                  std::vector<FitStep>* trace);
 

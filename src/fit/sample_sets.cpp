@@ -73,8 +73,7 @@ std::vector<Eigen::Vector3d> turned_directions(std::size_t count, std::uint64_t 
 AlignedFloats crease_distances(const CosineSet& cosines, const Creases& creases) {
   AlignedFloats u(cosines.size());
   for (std::size_t i = 0; i < u.size(); ++i)
-    u[i] = static_cast<float>(
-        crease_distance({cosines.x[i], cosines.y[i], cosines.z[i]}, creases));
+    u[i] = static_cast<float>(crease_distance({cosines.x[i], cosines.y[i], cosines.z[i]}, creases));
   return u;
 }
 

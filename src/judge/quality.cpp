@@ -34,6 +34,12 @@ void check(const QualitySettings& settings) {
   require("node directions", settings.node_directions, 1);
   require("query samples", settings.query_samples, 16);
   require("query directions", settings.query_directions, 1);
+  if (const FitSettings& floor = settings.floor_fit;
+      floor.second_crease > 0 && floor.second_crease <= floor.crease)
+    throw InputError(
+        fmt::format("quality.floor_second_crease = {} is not above quality.floor_crease = {}; "
+                    "expected more, or 0",
+                    floor.second_crease, floor.crease));
   const QueryRange& range = settings.range;
   if (range.roughness_first > range.roughness_last)
     throw InputError(fmt::format("queries of roughness from {} to {}; expected a rising range",

@@ -158,10 +158,9 @@ void summarize_quality(QualityReport& report) {
       statistics_of(of_judged(report, [&](auto i) { return floors[i].relative_loss; }));
   report.below_horizon =
       statistics_of(of_judged(report, [&](auto i) { return queries[i].below_horizon; }));
-  report.floor_below_horizon = statistics_of(
-      of_judged(report, [&](auto i) {
-        return share_below_horizon(floors[i].matrix, floors[i].fold, creases);
-      }));
+  report.floor_below_horizon = statistics_of(of_judged(report, [&](auto i) {
+    return share_below_horizon(floors[i].matrix, floors[i].fold, creases);
+  }));
   report.area_light =
       statistics_of(of_judged(report, [&](auto i) { return queries[i].area_light.mean_absolute; }));
   report.area_light_with_amplitude = statistics_of(of_judged(

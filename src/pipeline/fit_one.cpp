@@ -118,9 +118,9 @@ LobeFit fit_lobe(const Config& config, const Lobe& lobe, std::uint64_t seed,
   fit.lobe = lobe;
   fit.fits.resize(1);
   const FitWorkspacePointer workspace = make_fit_workspace();
-  fit.start_abandoned = fit_entry(*make_solver(config.fit), request, *workspace,
-                                  &fit.fits.front().steps, fit.fitted)
-                            .start_abandoned;
+  fit.start_abandoned =
+      fit_entry(*make_solver(config.fit), request, *workspace, &fit.fits.front().steps, fit.fitted)
+          .start_abandoned;
   note_fold(config, request, *workspace, fit);
   run.throw_if_stopped();
   finish(config, fit);
@@ -140,8 +140,7 @@ GradientCheck check_lobe_gradient(const Lobe& lobe, const Eigen::Matrix3d& matri
   const CosineSet cosines = make_cosine_set(check_samples);
   std::vector<Eigen::Vector3d> omega_o(cosines.size());
   for (std::size_t i = 0; i < cosines.size(); ++i)
-    omega_o[i] =
-        folded(Eigen::Vector3d(cosines.x[i], cosines.y[i], cosines.z[i]), fold, creases);
+    omega_o[i] = folded(Eigen::Vector3d(cosines.x[i], cosines.y[i], cosines.z[i]), fold, creases);
   TargetSamples samples;
   sample_weighted_target(frame, make_target_lattice(check_target_samples, 0.3), samples);
   PointSet target;

@@ -34,7 +34,7 @@ struct LobeFit {
   // Of a fold: the LTC of the same settings, which is fitted beside it.
   std::optional<FittedEntry> ltc;
   double ltc_held_out_loss = 0;
-  double spread = 0;         // of the lobe, the scale of losses (HeldOutJudge::spread)
+  double spread = 0;  // of the lobe, the scale of losses (HeldOutJudge::spread)
 };
 
 // The entries that have to be fitted for `flat` to come out as in a table of all `needed` entries,
@@ -49,8 +49,8 @@ std::vector<bool> entries_behind(const Grid& grid, const std::vector<bool>& need
 LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, std::size_t flat,
                         const RunContext& run);
 
-// A lobe by itself, from `start` (M) or else from the solver's own starting points. A matrix that is
-// folded is not aligned: that turns the cosine about its axis, and the creases with it.
+// A lobe by itself, from `start` (M) or else from the solver's own starting points. A matrix that
+// is folded is not aligned: that turns the cosine about its axis, and the creases with it.
 LobeFit fit_lobe(const Config& config, const Lobe& lobe, std::uint64_t seed,
                  const std::optional<Eigen::Matrix3d>& start, const RunContext& run = {});
 

@@ -34,8 +34,8 @@ struct NamedLobe {
 picture::PanelRow lobe_panels(const Lobe& lobe, const std::vector<NamedLobe>& beside,
                               picture::Words words, std::size_t side = 256);
 // Of an LTC alone.
-picture::PanelRow lobe_panels(const Lobe& lobe, const Eigen::Matrix3d& matrix,
-                              picture::Words words, std::size_t side = 256);
+picture::PanelRow lobe_panels(const Lobe& lobe, const Eigen::Matrix3d& matrix, picture::Words words,
+                              std::size_t side = 256);
 
 // The panels, and a chart below them if it has a series.
 picture::Canvas render_lobe(const picture::PanelRow& panels, const picture::Chart& chart,

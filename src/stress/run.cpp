@@ -47,9 +47,8 @@ class Runner {
     }
     const FitResult reference =
         reference_->fit(request(lobe, task_.reference), *worker.workspace, nullptr);
-    run.best_loss[index] =
-        set_ratios(fits, worker.judge.loss(reference.matrix), worker.judge.noise(),
-                   task_.fit.lobe == LobeKind::folded);
+    run.best_loss[index] = set_ratios(fits, worker.judge.loss(reference.matrix),
+                                      worker.judge.noise(), task_.fit.lobe == LobeKind::folded);
     std::copy(fits.begin(), fits.end(),
               run.fits.begin() + static_cast<std::ptrdiff_t>(index * fits.size()));
   }

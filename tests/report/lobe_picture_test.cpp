@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -190,6 +192,35 @@ TEST(LobePicture, WithoutAMatrixTheLtcIsMissing) {
     }
     EXPECT_GT(integral(row.panels[0].field, choose_window(lobe, matrix)), 0.9);
   }
+}
+
+TEST(LobePicture, AFoldedLobeStandsBesideTheLtc) {
+  const Lobe lobe{0.5, 0.3, 0.6, 0.4};
+  const Eigen::Matrix3d matrix = first_order_matrix(lobe);
+  const ShownLobe bent{matrix, {-0.8, 0.2}, usual_creases};
+  const picture::PanelRow row =
+      lobe_panels(lobe, {{"LTC", {matrix}}, {"folded LTC", bent}}, {}, 64);
+  ASSERT_EQ(row.panels.size(), 4u);
+  EXPECT_EQ(row.panels[2].title, "folded LTC");
+  EXPECT_EQ(row.panels[3].title, "folded LTC − GGX");
+  // A density: what of it is above the horizon, to a hundredth.
+  const LobeWindow window = hemisphere_window();
+  EXPECT_NEAR(integral(ltc_density(bent, lobe, window, 128), window),
+              1 - share_below_horizon(matrix, bent.fold, bent.creases), 0.01);
+  // Where it is the LTC's, so is its picture, but for rounding.
+  const picture::Field straight = ltc_density({matrix, {}, usual_creases}, lobe, window, 32);
+  const picture::Field plain = ltc_density({matrix}, lobe, window, 32);
+  double difference = 0, bend = 0;
+  for (std::size_t i = 0; i < plain.values.size(); ++i)
+    if (!std::isnan(plain.values[i]))
+      difference =
+          std::max(difference, std::abs(static_cast<double>(straight.values[i]) - plain.values[i]));
+  for (std::size_t i = 0; i < row.panels[1].field.values.size(); ++i)
+    if (!std::isnan(row.panels[1].field.values[i]))
+      bend = std::max(bend, std::abs(static_cast<double>(row.panels[2].field.values[i]) -
+                                     row.panels[1].field.values[i]));
+  EXPECT_LT(difference, 1e-5);
+  EXPECT_GT(bend, 0.1);
 }
 
 TEST(LobePicture, DifferenceIsThatOfThePanels) {
