@@ -7,16 +7,14 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "field/field.h"
+#include "fit/fold_starts.h"
 #include "fit/lobe_class.h"
 #include "fit/starting_points.h"
 #include "fit/workspace.h"
-#include "table/reduction.h"
-#include "table/symmetry.h"
 
 namespace ltc {
 namespace {
@@ -55,38 +53,8 @@ bool usable(const Eigen::Matrix3d& start) {
   return start.allFinite() && start.determinant() > 0;
 }
 
-// Of the fold that fits of folds try, times (1 - lambda) sin theta sin phi: that of a table's lobes
-// is between -0.2 and -1.7.
-constexpr double first_kappa = 0.8;
-
 // Folds converge slowly: with as many steps as an LTC they end 3 % above the least loss.
 constexpr int fold_step_factor = 3;
-
-bool is_in_first_quadrant(const Lobe& lobe) {
-  return lobe.alpha_x >= lobe.alpha_y && lobe.phi_radians >= 0 &&
-         lobe.phi_radians <= std::numbers::pi / 2;
-}
-
-// A folded lobe mirrored by an orthogonal matrix, its own determinant as positive as it was.
-FoldedStart mirrored(FoldedStart lobe, const Eigen::Matrix3d& by) {
-  lobe.matrix = by * lobe.matrix;
-  if (by.determinant() < 0) {
-    lobe.matrix.col(1) = -lobe.matrix.col(1);
-    lobe.fold.k = -lobe.fold.k;
-  }
-  return lobe;
-}
-
-// The request for a lobe's image in the first quadrant.
-FitRequest of_image(const FitRequest& request, const FoldedLobe& image) {
-  FitRequest result = request;
-  result.lobe = image.lobe;
-  for (Eigen::Matrix3d& start : result.starts)
-    start = image.unfold.transpose() * start * image.unfold;
-  for (FoldedStart& start : result.folded_starts)
-    start = mirrored(start, image.unfold.transpose());
-  return result;
-}
 
 FitResult no_result(int steps) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -154,8 +122,10 @@ class GaussNewtonSolver::Fit {
         ladder_(solver.ladder_for(frame_)) {}
 
   FitResult run() {
-    const FitResult ltc = find_ltc();
-    return can_fold(ltc) ? folded(ltc) : ltc;
+    if (solver_.creases_.empty())
+      return find_ltc();
+    const FitResult at_hand = request_.incumbent ? *request_.incumbent : find_ltc();
+    return can_fold(at_hand) ? folded(at_hand) : at_hand;
   }
 
  private:
@@ -178,48 +148,29 @@ class GaussNewtonSolver::Fit {
     return request_.incumbent ? improve(*request_.incumbent) : fit_anew();
   }
 
-  bool can_fold(const FitResult& ltc) const {
-    return !solver_.creases_.empty() && ltc.outcome != FitOutcome::analytic &&
-           ltc.outcome != FitOutcome::non_finite && frame_.lobe.alpha_x != frame_.lobe.alpha_y;
+  bool can_fold(const FitResult& at_hand) const {
+    return at_hand.outcome != FitOutcome::analytic && at_hand.outcome != FitOutcome::non_finite &&
+           frame_.lobe.alpha_x != frame_.lobe.alpha_y;
   }
 
-  FitResult folded(const FitResult& ltc) {
-    result_ = ltc;
+  FitResult folded(const FitResult& at_hand) {
+    result_ = at_hand;
     folding_ = true;
+    if (!seen_)
+      see_target(Look::light);
     std::vector<Descent> descents;
-    for (const Descent& start : fold_starts(frame_.from_matrix(ltc.matrix))) {
+    for (const Descent& start :
+         fold_starts(frame_, at_hand, request_.folded_starts, solver_.creases_)) {
       const FitPhase phase{Kind::fold, static_cast<int>(descents.size())};
       descents.push_back(descend(ladder_.coarse, start, options_of(ladder_.coarse, phase)));
       result_.steps += descents.back().steps;
     }
     FitResult found = climbed(best_of(descents));
-    if (fine_loss(found) < fine_loss(ltc))
+    if (fine_loss(found) < fine_loss(at_hand))
       return found;
-    found = ltc;
+    found = at_hand;
     found.steps = result_.steps;
     return found;
-  }
-
-  // The LTC as it is and, for without a fold neither sign is better than the other, bent either
-  // way; then those of the request.
-  std::vector<Descent> fold_starts(const Eigen::Matrix3d& p) const {
-    const FieldVariables at(frame_.lobe, 0);
-    const double kappa =
-        first_kappa * (1 - at.lambda) * at.sin_theta * std::sin(frame_.lobe.phi_radians);
-    const Bend bend(frame_.lobe.alpha_y * fold_of(at, kappa, 0).k, 0);
-    std::vector<Descent> starts = {{p}};
-    if (free_fold_[0] && kappa != 0)
-      for (const double sign : {-1.0, 1.0})
-        starts.push_back({p, sign * bend});
-    for (const FoldedStart& given : request_.folded_starts) {
-      const Eigen::Matrix3d start = admissible(frame_.from_matrix(given.matrix), free_);
-      if (given.matrix.determinant() > 0 && usable(start) &&
-          is_one_to_one(given.fold, solver_.creases_))
-        starts.push_back({start,
-                          {free_fold_[0] ? frame_.lobe.alpha_y * given.fold.k : 0,
-                           std::min(given.fold.g, most_fold(solver_.creases_))}});
-    }
-    return starts;
   }
 
   FitResult analytic_result() {
@@ -272,8 +223,8 @@ class GaussNewtonSolver::Fit {
   // On the last level, whichever the climb ended on.
   double fine_loss(const FitResult& result) {
     see_target(Look::whole);
-    return loss_on(ladder_.levels.back(), {frame_.from_matrix(result.matrix),
-                                           {frame_.lobe.alpha_y * result.fold.k, result.fold.g}});
+    return loss_on(ladder_.levels.back(),
+                   {frame_.from_matrix(result.matrix), bend_of(frame_, result.fold)});
   }
 
   // From the neighbours' solutions, where they promise more than what there is.
@@ -452,7 +403,7 @@ class GaussNewtonSolver::Fit {
     const Descent descent = climb(coarse);
     FitResult result = result_;
     result.matrix = frame_.to_matrix(descent.frame_matrix);
-    result.fold = {descent.bend[0] / frame_.lobe.alpha_y, descent.bend[1]};
+    result.fold = fold_of(frame_, descent.bend);
     result.loss = descent.loss;
     result.outcome = descent.converged ? FitOutcome::converged : FitOutcome::step_limit;
     return result;
@@ -500,8 +451,7 @@ class GaussNewtonSolver::Fit {
   FreeEntries free_;
   const SampleLadder& ladder_;
   bool folding_ = false;
-  const std::array<bool, 2> free_fold_ = {
-      !looks_along_x(frame_.lobe.theta_radians, frame_.lobe.phi_radians), true};
+  const std::array<bool, 2> free_fold_ = free_fold(frame_.lobe);
   std::optional<Look> seen_;  // what the workspace's target is
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   FitResult result_;
@@ -509,14 +459,10 @@ class GaussNewtonSolver::Fit {
 
 FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                                  std::vector<FitStep>* trace) const {
-  if (creases_.empty() || is_in_first_quadrant(request.lobe))
+  if (creases_.empty())
     return Fit(*this, request, workspace, trace).run();
-  const FoldedLobe image = ltc::fold(request.lobe);
-  FitResult result = Fit(*this, of_image(request, image), workspace, trace).run();
-  const FoldedStart back = mirrored({result.matrix, result.fold}, image.unfold);
-  result.matrix = back.matrix;
-  result.fold = back.fold;
-  return result;
+  const QuadrantImage image(request);
+  return image.unfolded(Fit(*this, image.request(), workspace, trace).run());
 }
 
 }  // namespace ltc

@@ -7,14 +7,11 @@
 // look into are put right; one that has no lobe at all, or whose coarse descent ends worse than
 // that of the solver's own starts, is abandoned for these (FitResult::start_abandoned).
 //
-// With creases, the LTC is folded then: from it with three folds and from the request's folded
-// starts, by the same phases. Where no fold has less loss on the finest samples, the LTC is what it
-// is, with no fold. Symmetry: in the plane of alpha_x nothing bends to a side (k = 0 at phi = 0 and
-// theta = 0), in that of alpha_y the fold is symmetric as it is, and isotropic lobes are not
-// folded, as all azimuths share theirs. Creases lie along the larger roughness: a lobe of
-// alpha_y > alpha_x or of another quadrant is fitted as its image in the first one
-// (table/reduction.h), and rows of M lead back. M has a determinant > 0 all the same, for
-// M fold(omega_o) is distributed as M diag(1, -1, 1) with -k.
+// With creases, the LTC is folded then, or the request's incumbent: from the places of
+// fold_starts.h, by the same phases. Where no fold has less loss on the finest samples, the result
+// is what there was. Symmetry: in the plane of alpha_x nothing bends to a side (k = 0 at phi = 0
+// and theta = 0), in that of alpha_y the fold is symmetric as it is, and isotropic lobes are not
+// folded, as all azimuths share theirs.
 #pragma once
 
 #include <vector>

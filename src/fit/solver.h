@@ -68,8 +68,9 @@ struct FitRequest {
   std::uint64_t seed = 0;
   // Matrices to start from; empty for the solver's own starting points.
   std::vector<Eigen::Matrix3d> starts;
-  // A solution that is known already. Where no start promises better, it is given back as it came
-  // with no more work than that takes to see (Gauss-Newton of LTCs only).
+  // A solution that is known already (Gauss-Newton only). Where no start promises better, it is
+  // given back as it came with no more work than that takes to see. Of folded lobes, it stands in
+  // place of the LTC: no other is looked for.
   std::optional<FitResult> incumbent;
   // Where not null and a stop is asked for, the fit ends early with whatever it has.
   const Progress* progress = nullptr;

@@ -223,7 +223,8 @@ TEST(FoldedFit, OtherQuadrantsAndTheOtherOrderAreImages) {
        {Lobe{0.4, 0.1, 1, std::numbers::pi - 0.5}, Lobe{0.4, 0.1, 1, std::numbers::pi + 0.5},
         Lobe{0.4, 0.1, 1, -0.5}, Lobe{0.1, 0.4, 1, std::numbers::pi / 2 - 0.5}}) {
     const FitResult fit = fit_of(image);
-    // The judge's samples are no images of each other: its noise, measured up to 3 % of a small loss.
+    // The judge's samples are no images of each other: its noise, measured up to 3 % of a small
+    // loss.
     EXPECT_NEAR(held_out(image, fit) / loss, 1, 0.1) << test::describe(image);
     EXPECT_GT(fit.matrix.determinant(), 0) << test::describe(image);
     FitResult wrong = fit;
@@ -271,6 +272,28 @@ TEST(FoldedFit, TakesFoldsToStartFrom) {
     if (step.phase.kind == FitPhase::Kind::fold)
       most_index = std::max(most_index, step.phase.index);
   EXPECT_EQ(most_index, 3);  // after the LTC's three
+}
+
+// As tables try their neighbours' folds: no LTC is looked for.
+TEST(FoldedFit, GoesOnFromAnIncumbent) {
+  const Lobe lobe{0.25, 0.05, 1.2, -0.6};
+  FitRequest request;
+  request.lobe = lobe;
+  request.incumbent = fit_of(lobe);
+  const FitResult own = *request.incumbent;
+  std::vector<FitStep> trace;
+  const std::unique_ptr<Solver> solver = make_solver(folded_settings());
+  const FitResult again = solver->fit(request, *make_fit_workspace(), &trace);
+  // The fine samples of the first fit end where these begin.
+  EXPECT_LE(again.loss, own.loss * (1 + 1e-3));
+  EXPECT_NEAR(again.fold.k / own.fold.k, 1, 0.1);
+  for (const FitStep& step : trace)
+    EXPECT_TRUE(step.phase.kind == FitPhase::Kind::fold ||
+                step.phase.kind == FitPhase::Kind::fine_fold);
+  // A poor one is left for a better start.
+  request.incumbent->fold = {0, -2};
+  request.folded_starts = {{own.matrix, own.fold}};
+  EXPECT_LT(solver->fit(request, *make_fit_workspace(), nullptr).loss, 1.05 * own.loss);
 }
 
 TEST(FoldedFit, KeepsBoundsWithFarCreases) {
