@@ -253,11 +253,12 @@ void show_fit(const Arguments& arguments, const RunContext& run) {
   const Config config = load(arguments);
   FitReport report = run_fit(arguments, config, run);
   if (arguments.check_gradient)
-    report.gradient = check_lobe_gradient(report.fit.lobe, report.fit.matrix);
+    report.gradient = check_lobe_gradient(report.fit.lobe, report.fit.matrix,
+                                          report.fit.fitted.fold, report.fit.creases);
   if (!arguments.trace.empty())
     write_file(arguments.trace, trace_csv(report));
   if (!arguments.plot.empty())
-    render_lobe(lobe_panels(report.fit.lobe, report.fit.matrix, picture_words(report)),
+    render_lobe(lobe_panels(report.fit.lobe, pictured_lobes(report), picture_words(report)),
                 loss_chart(report))
         .write_png(arguments.plot);
   print_results(

@@ -47,6 +47,10 @@ std::string phase_name(const FitReport& report, const WatchedFit& fit, const Fit
     return "descent";
   if (report.settings.solver == SolverKind::l3_nelder_mead)
     return "simplex";
+  if (step.phase.kind == FitPhase::Kind::fine_fold)
+    return fmt::format("fine fold {}", step.phase.index + 1);
+  if (step.phase.kind == FitPhase::Kind::fold)
+    return fmt::format("coarse fold {}", step.phase.index + 1);
   const std::string sweep = fit.sweep > 0 ? fmt::format("sweep {} ", fit.sweep) : "";
   if (step.phase.kind == FitPhase::Kind::fine)
     return sweep + fmt::format("fine {}", step.phase.index + 1);
@@ -133,6 +137,32 @@ Json json_of(const FitReport& report, const std::vector<NamedStep>& steps) {
   return all;
 }
 
+Json losses_json(double fit, double held_out, double spread) {
+  return {
+      {"fit", fit}, {"held_out", held_out}, {"spread", spread}, {"relative", held_out / spread}};
+}
+
+// The fold, and the LTC that is fitted beside it.
+std::string fold_text(const LobeFit& fit) {
+  return fmt::format("fold     k {:.6f}, g {:.6f}; kappa {:.4f}, gamma {:.4f}; creases {}\n",
+                     fit.fitted.fold.k, fit.fitted.fold.g, fit.kappa, fit.fitted.fold.g,
+                     fmt::join(fit.creases, ", ")) +
+         fmt::format("single   {:.4e} in {} steps; {}\n", fit.ltc->loss, fit.ltc->steps,
+                     loss_words(fit.ltc_held_out_loss, fit.spread));
+}
+
+Json fold_json(const LobeFit& fit) {
+  return {{"k", fit.fitted.fold.k},
+          {"g", fit.fitted.fold.g},
+          {"kappa", fit.kappa},
+          {"gamma", fit.fitted.fold.g},
+          {"creases", fit.creases},
+          {"single",
+           {{"matrix", matrix_json(fit.ltc->matrix)},
+            {"iterations", fit.ltc->steps},
+            {"loss", losses_json(fit.ltc->loss, fit.ltc_held_out_loss, fit.spread)}}}};
+}
+
 }  // namespace
 
 std::string report_text(const FitReport& report) {
@@ -157,6 +187,8 @@ std::string report_text(const FitReport& report) {
   text += fmt::format("symmetry largest value zeroed {:.1e}\n", fit.finished.zeroed);
   text += fmt::format("loss     {:.4e} in {} steps; {}\n", fit.fitted.loss, fit.fitted.steps,
                       loss_words(fit.held_out_loss, fit.spread));
+  if (fit.ltc)
+    text += fold_text(fit);
   text += fmt::format("albedo   amplitude {:.6f}, Fresnel {:.6f}\n", fit.albedo.amplitude,
                       fit.albedo.fresnel);
   if (report.gradient)
@@ -186,10 +218,9 @@ std::string report_json(const FitReport& report) {
   json["determinant"] = fit.matrix.determinant();
   json["condition_number"] = condition_number(fit.matrix);
   json["largest_zeroed"] = fit.finished.zeroed;
-  json["loss"] = {{"fit", fit.fitted.loss},
-                  {"held_out", fit.held_out_loss},
-                  {"spread", fit.spread},
-                  {"relative", fit.held_out_loss / fit.spread}};
+  json["loss"] = losses_json(fit.fitted.loss, fit.held_out_loss, fit.spread);
+  if (fit.ltc)
+    json["fold"] = fold_json(fit);
   json["amplitude"] = fit.albedo.amplitude;
   json["fresnel"] = fit.albedo.fresnel;
   if (report.gradient)
@@ -211,7 +242,8 @@ picture::Words picture_words(const FitReport& report) {
   const LobeFit& fit = report.fit;
   picture::Words words;
   words.title = report.entry ? "Entry " + entry_text(report.grid, *report.entry)
-                             : std::string("GGX lobe and its LTC");
+                             : std::string(fit.ltc ? "GGX lobe, its LTC, and one that is folded"
+                                                   : "GGX lobe and its LTC");
   words.subtitle = lobe_caption(fit.lobe);
   const std::size_t steps = named_steps(report).size();
   words.lines_below = {
@@ -223,7 +255,20 @@ picture::Words picture_words(const FitReport& report) {
                   name_of(fit.fitted.status), name_of(report.settings.solver),
                   fit.matrix.determinant(), condition_number(fit.matrix), fit.albedo.amplitude,
                   fit.albedo.fresnel)};
+  if (fit.ltc)
+    words.lines_below.insert(
+        words.lines_below.begin() + 1,
+        fmt::format("Fold k {:.4f}, g {:.4f}, creases {}; without, loss {}", fit.fitted.fold.k,
+                    fit.fitted.fold.g, fmt::join(fit.creases, ", "),
+                    loss_words(fit.ltc_held_out_loss, fit.spread)));
   return words;
+}
+
+std::vector<NamedLobe> pictured_lobes(const FitReport& report) {
+  const LobeFit& fit = report.fit;
+  if (!fit.ltc)
+    return {{"LTC", {fit.matrix}}};
+  return {{"LTC", {fit.ltc->matrix}}, {"folded LTC", {fit.matrix, fit.fitted.fold, fit.creases}}};
 }
 
 picture::Chart loss_chart(const FitReport& report) {

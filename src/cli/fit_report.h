@@ -11,6 +11,7 @@
 #include "fit/gradient_check.h"
 #include "picture/chart.h"
 #include "pipeline/fit_one.h"
+#include "report/lobe_picture.h"
 
 namespace ltc::cli {
 
@@ -35,6 +36,7 @@ std::string report_json(const FitReport& report);  // with a line break at its e
 std::string trace_csv(const FitReport& report);
 
 picture::Words picture_words(const FitReport& report);
+std::vector<NamedLobe> pictured_lobes(const FitReport& report);
 picture::Chart loss_chart(const FitReport& report);
 
 }  // namespace ltc::cli

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string row_text(const char* what, const Statistics& d) {
+std::string row_text(const std::string& what, const Statistics& d) {
   if (d.count == 0)
     return fmt::format("{:<36} {:>6}\n", what, 0);
   const std::string error = d.count > 1 ? fmt::format("{:.4f}", d.standard_error) : "";
@@ -28,18 +28,20 @@ std::string noise_text(double noise) {
 }
 
 std::string figures_text(const QualityReport& quality) {
+  const std::string floor = quality.settings.floor_fit.lobe == LobeKind::folded
+                                ? "  floor: each query fitted, folded"
+                                : "  floor: each query fitted";
   return fmt::format("\n{:<36} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "quality", "judged",
                      "mean", "+-", "median", "95 %", "99 %", "largest") +
          row_text("loss / spread at nodes", quality.nodes) +
          row_text("loss / spread between nodes", quality.query_losses) +
-         row_text("  floor: each query fitted", quality.floor_losses) +
+         row_text(floor, quality.floor_losses) +
          row_text("area lights, shape alone", quality.area_light) +
          row_text("  with the table's amplitude", quality.area_light_with_amplitude) +
-         row_text("  floor: each query fitted", quality.floor_area_light) +
+         row_text(floor, quality.floor_area_light) +
          row_text("below the horizon, at nodes", quality.nodes_below_horizon) +
          row_text("below the horizon, between nodes", quality.below_horizon) +
-         row_text("  floor: each query fitted", quality.floor_below_horizon) +
-         noise_text(quality.area_light_noise) +
+         row_text(floor, quality.floor_below_horizon) + noise_text(quality.area_light_noise) +
          fmt::format("queries: {}\n", range_words(quality.settings.range));
 }
 
@@ -157,6 +159,7 @@ Json quality_json(const std::string& file, const QualityReport& quality,
   json["node_loss"] = json_of(quality.nodes);
   json["nodes_without_values"] = quality.nodes_without_values;
   json["query_loss"] = json_of(quality.query_losses);
+  json["floor"] = name_of(quality.settings.floor_fit.lobe);
   json["floor_loss"] = json_of(quality.floor_losses);
   json["area_light_error"] = json_of(quality.area_light);
   json["area_light_error_with_amplitude"] = json_of(quality.area_light_with_amplitude);

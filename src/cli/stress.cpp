@@ -73,6 +73,11 @@ std::vector<Solver> solvers_of(const Arguments& arguments) {
                                : arguments.solver.empty() || arguments.solver == choice.name;
     if (!asked_for)
       continue;
+    if (config.fit.lobe == LobeKind::folded && built_in.solver != SolverKind::gauss_newton)
+      throw InputError(fmt::format(
+          "--solver {} with fit.lobe = \"folded\"; expected gauss-newton, the only one that fits "
+          "folds",
+          choice.name));
     solvers.push_back({choice.name, config, choice.must_pass});
     if (has_config)
       solvers.back().config.fit.solver = built_in.solver;
@@ -211,11 +216,15 @@ void require_bars(const std::vector<StressReport>& reports) {
 }
 
 std::string report_text(const std::vector<StressReport>& reports) {
+  const StressTask& task = reports.front().task;
   std::string text = fmt::format(
       "Losses are those of a judge in double precision, {} graded samples and {} directions, that\n"
-      "shares nothing with the fits. A fit fails above 1.05 times the least loss that any start,\n"
-      "or the default fit, reached at its lobe; what is below the judge's noise counts as equal.\n",
-      reports.front().task.judge.samples, reports.front().task.judge.directions);
+      "shares nothing with the fits. A fit fails above 1.05 times {}\n"
+      "its lobe; what is below the judge's noise counts as equal.\n",
+      task.judge.samples, task.judge.directions,
+      task.fit.lobe == LobeKind::folded
+          ? "the loss of the LTC that the\ndefault fit, which does not fold, has at"
+          : "the least loss that any start,\nor the default fit, reached at");
   for (const StressReport& report : reports)
     text += "\n" + report_text(report);
   return text;

@@ -42,6 +42,12 @@ void check_together(const Draft& draft, const config::Sources& sources) {
         "node of each: inverses of other lobes do not interpolate",
         config::latest_source(sources, {"table.storage", "table.lambda.first", "table.lambda.nodes",
                                         "table.phi.first_degrees", "table.phi.nodes"})));
+  if (draft.config.storage == Storage::folded && draft.config.fit.lobe != LobeKind::folded)
+    throw InputError(fmt::format(
+        "{}: table.storage = \"folded\" with fit.lobe = \"{}\"; expected \"folded\", which is "
+        "stored so whatever else is asked for",
+        config::latest_source(sources, {"table.storage", "fit.lobe"}),
+        name_of(draft.config.fit.lobe)));
   const OutputSettings& output = draft.config.output;
   constexpr std::array formats = {&OutputSettings::hdf5,     &OutputSettings::exr,
                                   &OutputSettings::npy,      &OutputSettings::dds,
@@ -59,6 +65,16 @@ void check_together(const Draft& draft, const config::Sources& sources) {
                     config::latest_source(sources, {"output.layout", "refine.steps"}),
                     draft.config.refine.steps));
   const FitSettings& fit = draft.config.fit;
+  if (fit.lobe == LobeKind::folded && fit.solver != SolverKind::gauss_newton)
+    throw InputError(fmt::format(
+        "{}: fit.lobe = \"folded\" with fit.solver = \"{}\"; expected \"gauss-newton\", the only "
+        "one that fits folds",
+        config::latest_source(sources, {"fit.lobe", "fit.solver"}), name_of(fit.solver)));
+  if (fit.lobe == LobeKind::folded && fit.second_crease > 0 && fit.second_crease <= fit.crease)
+    throw InputError(
+        fmt::format("{}: fit.second_crease = {} is not above fit.crease = {}; expected more, or 0",
+                    config::latest_source(sources, {"fit.second_crease", "fit.crease"}),
+                    fit.second_crease, fit.crease));
   if (fit.sgd.lattice_samples && fit.target == TargetKind::rejection)
     throw InputError(
         fmt::format("{}: fit.sgd.lattice_samples = true with fit.target = \"rejection\"; expected "

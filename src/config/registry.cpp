@@ -25,7 +25,8 @@ std::vector<Key> axis_keys(std::string section, Member axis, std::string_view un
           "number of nodes; one node stands at the first value"),
       key(
           section + "warp", [=](Draft& d) { return &axis(d)->warp; },
-          "where the nodes are dense: linear nowhere, sqrt near first, complement-sqrt near last, half-sine as engines have theta"),
+          "where the nodes are dense: linear nowhere, sqrt near first, complement-sqrt near last, "
+          "half-sine as engines have theta"),
   };
 }
 
@@ -50,6 +51,9 @@ std::vector<Key> table_keys() {
 std::vector<Key> fit_keys() {
   return {
       key("fit.solver", [](Draft& d) { return &d.config.fit.solver; }, "which optimiser fits the matrices"),
+      key("fit.lobe", [](Draft& d) { return &d.config.fit.lobe; }, "a single LTC, or one that a fold bends first (docs/folded.md); folded ones by gauss-newton alone"),
+      key("fit.crease", [](Draft& d) { return &d.config.fit.crease; }, {0, 10}, "where folded lobes have their creases, |x| = crease z of the cosine"),
+      key("fit.second_crease", [](Draft& d) { return &d.config.fit.second_crease; }, {0, 10}, "a second pair of creases, above the first; 0: none"),
       key("fit.target", [](Draft& d) { return &d.config.fit.target; }, "how the lobe is sampled: weighted lattice, or algorithm 1 with rejection as published"),
       key("fit.seed", [](Draft& d) { return &d.config.fit.seed; }, {0, most_seed}, "seed of what is random: sgd, rejection, random starts; without effect on the default settings"),
 
@@ -109,9 +113,6 @@ std::vector<Key> field_keys() {
       key("field.size", [](Draft& d) { return &d.config.field.size; }, {0, 8192}, "numbers of a field's matrix; 0 for a table of fits, no field"),
       key("field.albedo_size", [](Draft& d) { return &d.config.field.albedo_size; }, {10, 2000}, "numbers of its amplitude and Fresnel term together"),
       key("field.loss", [](Draft& d) { return &d.config.field.loss; }, {0, 1}, "the smallest field whose held-out loss is at most this, of at most field.size; 0: of that size"),
-      key("field.folded", [](Draft& d) { return &d.config.field.folded; }, "a fold before the field's matrix, lobes that bend (docs/folded.md)"),
-      key("field.crease", [](Draft& d) { return &d.config.field.crease; }, {0, 10}, "where the fold has its creases, |x| = crease z of the cosine"),
-      key("field.second_crease", [](Draft& d) { return &d.config.field.second_crease; }, {0, 10}, "a second pair of creases, above the first; 0: none"),
       key("field.half", [](Draft& d) { return &d.config.field.half; }, "coefficients that 16 bits hold, rounded while they are fitted"),
       key("field.queries", [](Draft& d) { return &d.config.field.queries; }, {1000, 1'000'000}, "look-ups that the field is fitted to"),
       key("field.edge_share", [](Draft& d) { return &d.config.field.edge_share; }, {0, 1}, "share of them spread over the whole domain, its edges too, not as asked for"),
@@ -149,7 +150,8 @@ std::vector<Key> output_keys() {
 const std::vector<Key>& keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> keys;
-    for (const std::vector<Key>& section : {table_keys(), fit_keys(), refine_keys(), field_keys(), output_keys()})
+    for (const std::vector<Key>& section :
+         {table_keys(), fit_keys(), refine_keys(), field_keys(), output_keys()})
       keys.insert(keys.end(), section.begin(), section.end());
     return keys;
   }();

@@ -176,6 +176,10 @@ Fold fold_of(double kappa, double gamma, const Lobe& folded, const Creases& crea
           std::min(gamma, most_fold(creases))};
 }
 
+double kappa_of(const Fold& fold, const Lobe& folded) {
+  return fold.k * width_across(folded) / (folded.alpha_x * folded.alpha_x);
+}
+
 Eigen::Matrix3d field_frame_matrix(const double* values, const FieldVariables& at) {
   const FieldDirections directions(at);
   Eigen::Matrix3d t = directions.constant;

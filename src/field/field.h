@@ -216,5 +216,6 @@ double most_fold(const Creases& creases);
 
 // The fold of kappa and gamma, as above; none of no creases.
 Fold fold_of(double kappa, double gamma, const Lobe& folded, const Creases& creases);
+double kappa_of(const Fold& fold, const Lobe& folded);
 
 }  // namespace ltc

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "fit/fit_journal.h"
 #include "fit/lobe_frame.h"
@@ -83,6 +84,7 @@ FitResult fit_entry(const Solver& solver, const FitRequest& request, FitWorkspac
   entry.status = result.outcome == FitOutcome::analytic ? Status::analytic : Status::fitted;
   entry.matrix = rounded_to_symmetry(request.lobe, result.matrix);
   entry.loss = result.loss;
+  entry.fold = result.fold;
   return result;
 }
 
@@ -115,6 +117,8 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
                                    const std::vector<PlannedEntry>& plan, const RunContext& run,
                                    FitWatch* watch, FitJournal* journal) {
+  if (settings.lobe == LobeKind::folded)
+    throw InputError("fit.lobe = \"folded\" for entries of a table; expected \"single\"");
   const std::unique_ptr<Solver> solver = make_solver(settings);
   const EqualLobes equal(grid);
   std::vector<std::size_t> to_fit;

@@ -20,6 +20,7 @@ struct FittedEntry {
   double loss = 0;
   int steps = 0;
   Status status = Status::skipped;
+  Fold fold = {};  // before the matrix, of solvers of folded lobes
 };
 
 // One fit of an entry, for those who want to watch: its own, then one for every sweep.
@@ -40,9 +41,9 @@ class FitJournal;  // fit/fit_journal.h
 // share a lobe with another are copied, and turned where need be, from it. With sweeps, every
 // fitted entry then tries its grid neighbours' solutions as starts and keeps the better one; all
 // entries of a sweep see the same state, so that neither order nor the number of threads matters.
-// Throws Interrupted when a stop is asked for. `watch`, where not null,
-// gets the steps of its entry. `journal`, where not null, spares the fits that it knows and learns
-// of the others as they are finished.
+// Throws Interrupted when a stop is asked for, InputError for settings with a fold. `watch`, where
+// not null, gets the steps of its entry. `journal`, where not null, spares the fits that it knows
+// and learns of the others as they are finished.
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
                                    const std::vector<PlannedEntry>& plan, const RunContext& run,
                                    FitWatch* watch = nullptr, FitJournal* journal = nullptr);

@@ -27,25 +27,55 @@ constexpr double smoothing_share = 0.01;
 
 // Of the squared entries of column c of P - P0; see prior_spread.
 double prior_strength(const LobeFrame& frame, double spread, int column, double weight) {
-  const double roughness[2] = {frame.lobe.alpha_x, frame.lobe.alpha_y};
+  const double roughness[3] = {frame.lobe.alpha_x, frame.lobe.alpha_y, 1};
   const double width = std::max(roughness[0] * frame.first_order.col(0).norm(),
                                 roughness[1] * frame.first_order.col(1).norm());
   const double wide = spread / prior_spread, relative = roughness[column] / width;
   return weight * spread / (1 + wide * wide) * relative * relative;
 }
 
-// Adds the prior to the model at P, and returns its own value.
-double add_prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, double weight,
-                 ModelValue& value) {
+// The same of a bend's two numbers: a fold moves samples by about q.
+Bend bend_strength(const LobeFrame& frame, double spread, double weight) {
+  return {prior_strength(frame, spread, 1, weight) * frame.first_order.col(1).squaredNorm(),
+          prior_strength(frame, spread, 2, weight)};
+}
+
+// P, and the bend where lobes are folded.
+struct Place {
+  Eigen::Matrix3d p;
+  Bend bend = Bend::Zero();
+};
+
+// A place as so many numbers: nine of P, and two of the bend.
+template <int numbers>
+using Numbers = Eigen::Matrix<double, numbers, 1>;
+template <int numbers>
+Numbers<numbers> difference(const Place& to, const Place& from) {
+  Numbers<numbers> result;
+  result.template head<9>() = flattened(to.p - from.p);
+  if constexpr (numbers > 9)
+    result.template tail<2>() = to.bend - from.bend;
+  return result;
+}
+
+// Adds the prior to the model at a place, and returns its own value.
+template <int numbers>
+double add_prior(const LobeFrame& frame, double spread, const Place& at, double weight,
+                 ModelValueOf<numbers>& value) {
   for (int column = 0; column < 2; ++column) {
     const double strength = prior_strength(frame, spread, column, weight);
     for (int row = 0; row < 3; ++row) {
       const int entry = 3 * row + column;
-      value.gradient[entry] += strength * (p(row, column) - frame.first_order(row, column));
+      value.gradient[entry] += strength * (at.p(row, column) - frame.first_order(row, column));
       value.curvature(entry, entry) += strength;
     }
   }
-  return prior(frame, spread, p, weight);
+  if constexpr (numbers > 9) {
+    const Bend strength = bend_strength(frame, spread, weight);
+    value.gradient.template tail<2>() += strength.cwiseProduct(at.bend);
+    value.curvature.diagonal().template tail<2>() += strength;
+  }
+  return prior(frame, spread, at.p, weight, at.bend);
 }
 
 // An entry's own curvature counts at least this share of its column's.
@@ -54,19 +84,23 @@ constexpr double least_own_curvature = 1e-9;
 // The damped step over the free entries. Damping is relative to each entry's own curvature: row 2
 // of a thin column has a curvature of the roughness squared of its column's, and would not move if
 // damped like that. Scale and rotation, which move nothing, are held by damping alone.
-Eigen::Matrix3d damped_step(const ModelValue& value, const FreeEntries& free, double damping) {
-  int index[9], count = 0;
-  for (int entry = 0; entry < 9; ++entry)
-    if (free[entry])
+template <int numbers>
+Numbers<numbers> damped_step(const ModelValueOf<numbers>& value,
+                             const std::array<bool, numbers>& free, double damping) {
+  int index[numbers], count = 0;
+  for (int entry = 0; entry < numbers; ++entry)
+    if (free[static_cast<std::size_t>(entry)])
       index[count++] = entry;
   double column_curvature[3] = {};
   for (int entry = 0; entry < 9; ++entry)
     column_curvature[entry % 3] += value.curvature(entry, entry) / 3;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9> system(count, count);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1> right(count), scale(count);
-  for (int i = 0; i < count; ++i)
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, numbers, numbers> system(count, count);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, numbers, 1> right(count), scale(count);
+  for (int i = 0; i < count; ++i) {
+    const int column = index[i] < 9 ? index[i] % 3 : 2;
     scale[i] = 1 / std::sqrt(std::max(value.curvature(index[i], index[i]),
-                                      least_own_curvature * column_curvature[index[i] % 3]));
+                                      least_own_curvature * column_curvature[column]));
+  }
   // Scaled to a unit diagonal, so that columns of very different roughness keep their digits.
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < count; ++j)
@@ -75,9 +109,9 @@ Eigen::Matrix3d damped_step(const ModelValue& value, const FreeEntries& free, do
     right[i] = -value.gradient[index[i]] * scale[i];
   }
   const auto solution = system.ldlt().solve(right).eval();
-  Eigen::Matrix3d step = Eigen::Matrix3d::Zero();
+  Numbers<numbers> step = Numbers<numbers>::Zero();
   for (int i = 0; i < count; ++i)
-    step(index[i] / 3, index[i] % 3) = solution[i] * scale[i];
+    step[index[i]] = solution[i] * scale[i];
   return step;
 }
 
@@ -87,7 +121,8 @@ Eigen::Matrix3d damped_step(const ModelValue& value, const FreeEntries& free, do
 // than this, half of where single precision cannot invert it.
 constexpr double short_column_share = 0.005, most_condition = 5e6;
 
-void lengthen_vanishing_columns(const LobeFrame& frame, Eigen::Matrix3d& p) {
+void lengthen_vanishing_columns(const LobeFrame& frame, Place& place) {
+  Eigen::Matrix3d& p = place.p;
   const Eigen::Vector3d roughness(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
   const Eigen::Vector3d singular =
       Eigen::JacobiSVD<Eigen::Matrix3d>(p * roughness.asDiagonal()).singularValues();
@@ -97,8 +132,12 @@ void lengthen_vanishing_columns(const LobeFrame& frame, Eigen::Matrix3d& p) {
   for (int column = 0; column < 2; ++column) {
     const double length = p.col(column).norm();
     const double least = short_column_share * frame.first_order.col(column).norm();
-    if (length > 0 && length < least)
-      p.col(column) *= std::min(excess, least / length);
+    if (!(length > 0 && length < least))
+      continue;
+    const double factor = std::min(excess, least / length);
+    p.col(column) *= factor;
+    if (column == 1)
+      place.bend[0] /= factor;  // what is bent stays where it is
   }
 }
 
@@ -106,18 +145,20 @@ void lengthen_vanishing_columns(const LobeFrame& frame, Eigen::Matrix3d& p) {
 // loss, so that its curvature is too large, by a factor that differs from direction to direction,
 // and its steps too short. BFGS updates of the model's curvature with the last few steps and
 // changes of the gradient mend that.
+template <int numbers>
 class CurvatureCorrection {
  public:
-  void add(const Vector9& step, const Vector9& gradient_change) {
+  using Vector = Numbers<numbers>;
+  void add(const Vector& step, const Vector& gradient_change) {
     steps_[count_ % capacity] = step;
     changes_[count_ % capacity] = gradient_change;
     ++count_;
   }
-  void apply(Matrix9& curvature) const {
+  void apply(Eigen::Matrix<double, numbers, numbers>& curvature) const {
     for (std::size_t i = count_ < capacity ? 0 : count_ - capacity; i < count_; ++i) {
-      const Vector9& step = steps_[i % capacity];
-      const Vector9& change = changes_[i % capacity];
-      const Vector9 expected = curvature * step;
+      const Vector& step = steps_[i % capacity];
+      const Vector& change = changes_[i % capacity];
+      const Vector expected = curvature * step;
       const double model = step.dot(expected), seen = step.dot(change);
       if (!(model > 0) || seen < least_share * model)
         continue;
@@ -128,52 +169,80 @@ class CurvatureCorrection {
  private:
   static constexpr std::size_t capacity = 4;
   static constexpr double least_share = 0.05;
-  std::array<Vector9, capacity> steps_, changes_;
+  std::array<Vector, capacity> steps_, changes_;
   std::size_t count_ = 0;
 };
 
-}  // namespace
-
-double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, double weight) {
-  double penalty = 0;
-  for (int column = 0; column < 2; ++column)
-    penalty += 0.5 * prior_strength(frame, spread, column, weight) *
-               (p.col(column) - frame.first_order.col(column)).squaredNorm();
-  return penalty;
+// The model without its prior.
+void evaluate_at(const DescentTask& task, const Place& at, std::size_t direction_stride,
+                 double smoothing, ModelWorkspace& workspace, ModelValue& value) {
+  evaluate_model({task.frame, at.p, task.cosines, task.target, direction_stride, smoothing},
+                 workspace, value);
+}
+void evaluate_at(const DescentTask& task, const Place& at, std::size_t direction_stride,
+                 double smoothing, ModelWorkspace& workspace, BentModelValue& value) {
+  FoldedModelValue of_columns;
+  evaluate_model({task.frame, at.p, task.cosines, task.target, direction_stride, smoothing},
+                 {column_of(at.p, at.bend), task.fold->u}, workspace, of_columns);
+  value = bent(of_columns, at.p, at.bend);
 }
 
-Descent minimise(const DescentTask& task, const DescentOptions& options, ModelWorkspace& workspace,
-                 std::vector<FitStep>* trace) {
-  const auto& [frame, start, free, cosines, target] = task;
+// Which numbers a step from here may move: a g at its bound only away from it.
+std::array<bool, 9> free_numbers(const DescentTask& task, const Place&, const ModelValue&) {
+  return task.free;
+}
+std::array<bool, 11> free_numbers(const DescentTask& task, const Place& at,
+                                  const BentModelValue& value) {
+  std::array<bool, 11> free;
+  std::copy(task.free.begin(), task.free.end(), free.begin());
+  free[9] = task.fold->free[0];
+  free[10] = task.fold->free[1] && (at.bend[1] < task.fold->most_g || value.gradient[10] > 0);
+  return free;
+}
+
+// The place a step leads to, made admissible.
+template <int numbers>
+Place moved(const DescentTask& task, const Place& from, const Numbers<numbers>& step) {
+  Place to{from.p + unflattened(step.template head<9>()), from.bend};
+  if constexpr (numbers > 9) {
+    to.bend += step.template tail<2>();
+    to.bend[1] = std::min(to.bend[1], task.fold->most_g);
+  }
+  // The lobe of M is that of M diag(1, -1, 1), folded the other way: a step through a flat lobe
+  // comes out on the other side, and is turned back.
+  if (to.p.determinant() < 0) {
+    to.p.col(1) = -to.p.col(1);
+    to.bend[0] = -to.bend[0];
+  }
+  to.p /= to.p.col(2).norm();
+  return to;
+}
+
+template <int numbers>
+Descent descend(const DescentTask& task, const DescentOptions& options, ModelWorkspace& workspace,
+                std::vector<FitStep>* trace) {
+  const LobeFrame& frame = task.frame;
+  const double spread = task.target.spread();
   Descent best;
-  best.frame_matrix = start / start.col(2).norm();
-  ModelValue value, trial_value;
-  double smoothing = smoothing_share * target.spread();
-  evaluate_model({frame, best.frame_matrix, cosines, target, options.direction_stride, smoothing},
-                 workspace, value);
+  Place place{task.start / task.start.col(2).norm(), task.fold ? task.fold->start : Bend::Zero()};
+  ModelValueOf<numbers> value, trial_value;
+  evaluate_at(task, place, options.direction_stride, smoothing_share * spread, workspace, value);
   best.loss = value.loss;
-  double objective = value.loss + add_prior(frame, target.spread(), best.frame_matrix,
-                                            options.prior_weight, value);
+  double objective = value.loss + add_prior(frame, spread, place, options.prior_weight, value);
   double damping = options.damping;
-  CurvatureCorrection correction;
+  CurvatureCorrection<numbers> correction;
   for (; best.steps < options.steps; ++best.steps) {
     if (options.progress && options.progress->stop_requested())
       break;
-    Eigen::Matrix3d trial = best.frame_matrix + damped_step(value, free, damping);
-    // The lobe of M is that of M diag(1, -1, 1): a step through a flat lobe comes out on the other
-    // side, and is turned back.
-    if (trial.determinant() < 0)
-      trial.col(1) = -trial.col(1);
-    trial /= trial.col(2).norm();
-    smoothing = smoothing_share * best.loss;
-    bool accepted = trial.allFinite() && trial.determinant() > 0;
+    const Place trial = moved<numbers>(
+        task, place, damped_step<numbers>(value, free_numbers(task, place, value), damping));
+    bool accepted = trial.p.allFinite() && trial.bend.allFinite() && trial.p.determinant() > 0;
     double trial_objective = objective;
     if (accepted) {
-      evaluate_model({frame, trial, cosines, target, options.direction_stride, smoothing},
-                     workspace, trial_value);
+      evaluate_at(task, trial, options.direction_stride, smoothing_share * best.loss, workspace,
+                  trial_value);
       const double loss = trial_value.loss;
-      trial_objective =
-          loss + add_prior(frame, target.spread(), trial, options.prior_weight, trial_value);
+      trial_objective = loss + add_prior(frame, spread, trial, options.prior_weight, trial_value);
       accepted = trial_objective < objective;
     }
     if (trace)
@@ -189,9 +258,9 @@ Descent minimise(const DescentTask& task, const DescentOptions& options, ModelWo
       continue;
     }
     const double gain = objective - trial_objective;
-    correction.add(flattened(trial - best.frame_matrix), trial_value.gradient - value.gradient);
+    correction.add(difference<numbers>(trial, place), trial_value.gradient - value.gradient);
     correction.apply(trial_value.curvature);
-    best.frame_matrix = trial;
+    place = trial;
     best.loss = trial_value.loss;
     std::swap(value, trial_value);
     objective = trial_objective;
@@ -202,8 +271,29 @@ Descent minimise(const DescentTask& task, const DescentOptions& options, ModelWo
       break;
     }
   }
-  lengthen_vanishing_columns(frame, best.frame_matrix);
+  lengthen_vanishing_columns(frame, place);
+  best.frame_matrix = place.p;
+  best.bend = place.bend;
   return best;
+}
+
+}  // namespace
+
+double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, double weight,
+             const Bend& bend) {
+  double penalty = 0;
+  for (int column = 0; column < 2; ++column)
+    penalty += 0.5 * prior_strength(frame, spread, column, weight) *
+               (p.col(column) - frame.first_order.col(column)).squaredNorm();
+  if (!bend.isZero(0))
+    penalty += 0.5 * bend_strength(frame, spread, weight).dot(bend.cwiseAbs2());
+  return penalty;
+}
+
+Descent minimise(const DescentTask& task, const DescentOptions& options, ModelWorkspace& workspace,
+                 std::vector<FitStep>* trace) {
+  return task.fold ? descend<11>(task, options, workspace, trace)
+                   : descend<9>(task, options, workspace, trace);
 }
 
 }  // namespace ltc

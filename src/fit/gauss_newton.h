@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <chrono>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct DescentOptions {
 
 struct Descent {
   Eigen::Matrix3d frame_matrix;  // P, third column of unit length
+  Bend bend = Bend::Zero();      // of a folded lobe
   double loss = 0;               // of the model's samples, without the prior
   int steps = 0;
   bool converged = false;
@@ -34,7 +36,17 @@ struct Descent {
 // What the descent adds to the loss at P, for a target of this spread: a weak pull of columns 0 and
 // 1 towards the first-order P0 that decides what the samples of a sharp lobe leave open. `weight`
 // is DescentOptions::prior_weight.
-double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, double weight);
+// A fold is pulled to none likewise, by what it moves the lobe beside its width.
+double prior(const LobeFrame& frame, double spread, const Eigen::Matrix3d& p, double weight,
+             const Bend& bend = Bend::Zero());
+
+// The fold to start from, which of its two numbers are free, the largest g, and u of every sample.
+struct FoldTask {
+  Bend start;
+  std::array<bool, 2> free;
+  double most_g;
+  const AlignedFloats& u;
+};
 
 // From where, over which entries, to fit which samples to which target.
 struct DescentTask {
@@ -43,11 +55,13 @@ struct DescentTask {
   const FreeEntries& free;
   const CosineSet& cosines;
   const TargetQuantiles& target;
+  const FoldTask* fold = nullptr;  // null: the lobe is not folded
 };
 
-// Minimises the model over the free entries of P from the start. A weak prior (design: sharp lobes)
-// holds columns 0 and 1 near the first-order P0 where the samples say nothing. Steps that lose,
-// turn the determinant or are not finite are not taken. `trace` may be null.
+// Minimises the model over the free entries of P, and of the fold, from the start. A weak prior
+// (design: sharp lobes) holds columns 0 and 1 near the first-order P0 where the samples say
+// nothing. Steps that lose, turn the determinant or are not finite are not taken. `trace` may be
+// null.
 Descent minimise(const DescentTask& task, const DescentOptions& options, ModelWorkspace& workspace,
                  std::vector<FitStep>* trace);
 

@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "field/field.h"
+#include "fit/fold_starts.h"
 #include "fit/lobe_class.h"
 #include "fit/starting_points.h"
 #include "fit/workspace.h"
@@ -51,6 +53,9 @@ bool usable(const Eigen::Matrix3d& start) {
   return start.allFinite() && start.determinant() > 0;
 }
 
+// Folds converge slowly: with as many steps as an LTC they end 3 % above the least loss.
+constexpr int fold_step_factor = 3;
+
 FitResult no_result(int steps) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return {Eigen::Matrix3d::Constant(nan), nan, steps, FitOutcome::non_finite};
@@ -58,13 +63,15 @@ FitResult no_result(int steps) {
 
 }  // namespace
 
-GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target)
+GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target,
+                                     const Creases& creases)
     : settings_(settings),
       target_kind_(target),
+      creases_(creases),
       directions_(in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)))),
       bins_(bins_for(settings.samples)),
-      usual_(make_ladder(settings)),
-      graded_(make_graded_ladder(settings)) {}
+      usual_(make_ladder(settings, creases)),
+      graded_(make_graded_ladder(settings, creases)) {}
 
 const SampleLadder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
   return target_kind_ == TargetKind::weighted && (is_extreme(frame) || is_sharp(frame)) ? graded_
@@ -115,13 +122,10 @@ class GaussNewtonSolver::Fit {
         ladder_(solver.ladder_for(frame_)) {}
 
   FitResult run() {
-    see_target(Look::light);
-    if ((request_.starts.empty() || !request_.incumbent) && first_order_is_exact(frame_)) {
-      FitResult result = analytic_result();
-      result.start_abandoned = !request_.starts.empty();
-      return result;
-    }
-    return request_.incumbent ? improve(*request_.incumbent) : fit_anew();
+    if (solver_.creases_.empty())
+      return find_ltc();
+    const FitResult at_hand = request_.incumbent ? *request_.incumbent : find_ltc();
+    return can_fold(at_hand) ? folded(at_hand) : at_hand;
   }
 
  private:
@@ -134,9 +138,45 @@ class GaussNewtonSolver::Fit {
     double loss = 0;  // honest
   };
 
+  FitResult find_ltc() {
+    see_target(Look::light);
+    if ((request_.starts.empty() || !request_.incumbent) && first_order_is_exact(frame_)) {
+      FitResult result = analytic_result();
+      result.start_abandoned = !request_.starts.empty();
+      return result;
+    }
+    return request_.incumbent ? improve(*request_.incumbent) : fit_anew();
+  }
+
+  bool can_fold(const FitResult& at_hand) const {
+    return at_hand.outcome != FitOutcome::analytic && at_hand.outcome != FitOutcome::non_finite &&
+           frame_.lobe.alpha_x != frame_.lobe.alpha_y;
+  }
+
+  FitResult folded(const FitResult& at_hand) {
+    result_ = at_hand;
+    folding_ = true;
+    if (!seen_)
+      see_target(Look::light);
+    std::vector<Descent> descents;
+    for (const Descent& start :
+         fold_starts(frame_, at_hand, request_.folded_starts, solver_.creases_)) {
+      const FitPhase phase{Kind::fold, static_cast<int>(descents.size())};
+      descents.push_back(descend(ladder_.coarse, start, options_of(ladder_.coarse, phase)));
+      result_.steps += descents.back().steps;
+    }
+    FitResult found = climbed(best_of(descents));
+    if (fine_loss(found) < fine_loss(at_hand))
+      return found;
+    found = at_hand;
+    found.steps = result_.steps;
+    return found;
+  }
+
   FitResult analytic_result() {
     const Eigen::Matrix3d p = admissible(frame_.first_order, free_);
-    return {frame_.to_matrix(p), loss_on(solver_.usual_.levels.back(), p), 0, FitOutcome::analytic};
+    return {frame_.to_matrix(p), loss_on(solver_.usual_.levels.back(), {p}), 0,
+            FitOutcome::analytic};
   }
 
   FitResult fit_anew() {
@@ -183,7 +223,8 @@ class GaussNewtonSolver::Fit {
   // On the last level, whichever the climb ended on.
   double fine_loss(const FitResult& result) {
     see_target(Look::whole);
-    return loss_on(ladder_.levels.back(), frame_.from_matrix(result.matrix));
+    return loss_on(ladder_.levels.back(),
+                   {frame_.from_matrix(result.matrix), bend_of(frame_, result.fold)});
   }
 
   // From the neighbours' solutions, where they promise more than what there is.
@@ -191,9 +232,8 @@ class GaussNewtonSolver::Fit {
     result_ = incumbent;
     // The incumbent settles on the coarse samples before it is compared on them.
     const Descent settled =
-        minimise({frame_, admissible(frame_.from_matrix(incumbent.matrix), free_), free_,
-                  ladder_.coarse.cosines, workspace_.quantiles},
-                 options_of(ladder_.coarse, {}), workspace_.model, nullptr);
+        descend(ladder_.coarse, {admissible(frame_.from_matrix(incumbent.matrix), free_)},
+                options_of(ladder_.coarse, {}), nullptr);
     result_.steps = settled.steps;
     const bool given = !request_.starts.empty();
     const Descent best =
@@ -234,14 +274,34 @@ class GaussNewtonSolver::Fit {
     return solver_.own_starts(frame_, request_.seed, workspace_);
   }
 
-  double loss_on(const SampleLevel& level, const Eigen::Matrix3d& frame_matrix) {
-    ModelValue value;
-    evaluate_model({frame_, frame_matrix, level.cosines, workspace_.quantiles,
-                    level.options.direction_stride, workspace_.quantiles.spread()},
-                   workspace_.model, value);
+  double loss_on(const SampleLevel& level, const Descent& at) {
+    const ModelPoint point{frame_,
+                           at.frame_matrix,
+                           level.cosines,
+                           workspace_.quantiles,
+                           level.options.direction_stride,
+                           workspace_.quantiles.spread()};
+    if (at.bend.isZero(0)) {
+      ModelValue value;
+      evaluate_model(point, workspace_.model, value);
+      return value.loss;
+    }
+    FoldedModelValue value;
+    evaluate_model(point, {column_of(at.frame_matrix, at.bend), level.u}, workspace_.model, value);
     return value.loss;
   }
-  double coarse_loss(const Eigen::Matrix3d& start) { return loss_on(ladder_.coarse, start); }
+  double coarse_loss(const Eigen::Matrix3d& start) { return loss_on(ladder_.coarse, {start}); }
+
+  Descent descend(const SampleLevel& level, const Descent& from, const DescentOptions& options,
+                  std::vector<FitStep>* trace) {
+    const FoldTask fold{from.bend, free_fold_, most_fold(solver_.creases_), level.u};
+    return minimise({frame_, from.frame_matrix, free_, level.cosines, workspace_.quantiles,
+                     folding_ ? &fold : nullptr},
+                    options, workspace_.model, trace);
+  }
+  Descent descend(const SampleLevel& level, const Descent& from, const DescentOptions& options) {
+    return descend(level, from, options, trace_);
+  }
 
   // The coarse loss, or what the widths alone make it at least. The model compares means of bins,
   // so that it takes a lobe far narrower than a bin for a good one wherever its mean is right; but
@@ -289,9 +349,8 @@ class GaussNewtonSolver::Fit {
     for (std::size_t i = 0; i < starts.size(); ++i) {
       if (!(std::isfinite(losses[i]) && losses[i] <= most))
         continue;
-      descents.push_back(minimise(
-          {frame_, starts[i], free_, ladder_.coarse.cosines, workspace_.quantiles},
-          options_of(ladder_.coarse, {kind, static_cast<int>(i)}), workspace_.model, trace_));
+      descents.push_back(descend(ladder_.coarse, {starts[i]},
+                                 options_of(ladder_.coarse, {kind, static_cast<int>(i)})));
       result_.steps += descents.back().steps;
     }
     return descents;
@@ -344,6 +403,7 @@ class GaussNewtonSolver::Fit {
     const Descent descent = climb(coarse);
     FitResult result = result_;
     result.matrix = frame_.to_matrix(descent.frame_matrix);
+    result.fold = fold_of(frame_, descent.bend);
     result.loss = descent.loss;
     result.outcome = descent.converged ? FitOutcome::converged : FitOutcome::step_limit;
     return result;
@@ -360,12 +420,13 @@ class GaussNewtonSolver::Fit {
     if (level == last && last > 0)
       --level;
     for (int phase = 0;; ++level, ++phase) {
-      DescentOptions options = options_of(levels[level], {Kind::fine, phase});
+      DescentOptions options =
+          options_of(levels[level], {folding_ ? Kind::fine_fold : Kind::fine, phase});
+      if (folding_)
+        options.steps *= fold_step_factor;
       if (level < last && level_needed(descent) > level)
         options.tolerance = std::max(options.tolerance, passing_tolerance);
-      descent = minimise(
-          {frame_, descent.frame_matrix, free_, levels[level].cosines, workspace_.quantiles},
-          options, workspace_.model, trace_);
+      descent = descend(levels[level], descent, options);
       result_.steps += descent.steps;
       if (level == last ||
           (level_needed(descent) <= level && !is_overfitted(descent, levels[level + 1])))
@@ -376,7 +437,7 @@ class GaussNewtonSolver::Fit {
   }
   bool is_overfitted(const Descent& descent, const SampleLevel& next) {
     return frame_.omega_v.z() < heavy_tailed_cosine &&
-           loss_on(next, descent.frame_matrix) > (1 + overfit_share) * descent.loss;
+           loss_on(next, descent) > (1 + overfit_share) * descent.loss;
   }
   std::size_t level_needed(const Descent& descent) const {
     return level_for(ladder_, descent.loss / workspace_.quantiles.spread());
@@ -389,6 +450,8 @@ class GaussNewtonSolver::Fit {
   LobeFrame frame_;
   FreeEntries free_;
   const SampleLadder& ladder_;
+  bool folding_ = false;
+  const std::array<bool, 2> free_fold_ = free_fold(frame_.lobe);
   std::optional<Look> seen_;  // what the workspace's target is
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   FitResult result_;
@@ -396,7 +459,10 @@ class GaussNewtonSolver::Fit {
 
 FitResult GaussNewtonSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                                  std::vector<FitStep>* trace) const {
-  return Fit(*this, request, workspace, trace).run();
+  if (creases_.empty())
+    return Fit(*this, request, workspace, trace).run();
+  const QuadrantImage image(request);
+  return image.unfolded(Fit(*this, image.request(), workspace, trace).run());
 }
 
 }  // namespace ltc

@@ -6,6 +6,12 @@
 // Given starts may be anything. Their scale, the sign of their determinant and the hemisphere they
 // look into are put right; one that has no lobe at all, or whose coarse descent ends worse than
 // that of the solver's own starts, is abandoned for these (FitResult::start_abandoned).
+//
+// With creases, the LTC is folded then, or the request's incumbent: from the places of
+// fold_starts.h, by the same phases. Where no fold has less loss on the finest samples, the result
+// is what there was. Symmetry: in the plane of alpha_x nothing bends to a side (k = 0 at phi = 0
+// and theta = 0), in that of alpha_y the fold is symmetric as it is, and isotropic lobes are not
+// folded, as all azimuths share theirs.
 #pragma once
 
 #include <vector>
@@ -18,7 +24,8 @@ namespace ltc {
 
 class GaussNewtonSolver final : public Solver {
  public:
-  GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target);
+  GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target,
+                    const Creases& creases = {});
 
   FitResult fit(const FitRequest& request, FitWorkspace& workspace,
                 std::vector<FitStep>* trace) const override;
@@ -36,6 +43,7 @@ class GaussNewtonSolver final : public Solver {
 
   GaussNewtonSettings settings_;
   TargetKind target_kind_;
+  Creases creases_;
   std::vector<Eigen::Vector3f> directions_;
   std::size_t bins_;
   SampleLadder usual_, graded_;

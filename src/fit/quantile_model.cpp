@@ -362,6 +362,23 @@ void evaluate_model(const ModelPoint& point, const FoldedColumn& fold, ModelWork
   evaluate<12>(point, &fold, workspace, value);
 }
 
+BentModelValue bent(const FoldedModelValue& of_columns, const Eigen::Matrix3d& frame_matrix,
+                    const Bend& bend) {
+  // How (P q) changes with P and the bend.
+  Eigen::Matrix<double, 12, 11> change;
+  change.setZero();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      change(4 * row + column, 3 * row + column) = 1;
+    for (int i = 0; i < 2; ++i) {
+      change(4 * row + 3, 3 * row + 1 + i) = bend[i];
+      change(4 * row + 3, 9 + i) = frame_matrix(row, 1 + i);
+    }
+  }
+  return {of_columns.loss, change.transpose() * of_columns.gradient,
+          change.transpose() * of_columns.curvature * change};
+}
+
 void ModelWorkspace::reserve(std::size_t samples, std::size_t bin_count, std::size_t columns) {
   const std::size_t width = kernels::row_width_of(columns);
   if (gx.size() < samples)

@@ -164,4 +164,14 @@ struct FoldedColumn {
 void evaluate_model(const ModelPoint& point, const FoldedColumn& fold, ModelWorkspace& workspace,
                     FoldedModelValue& value);
 
+// The fold of a lobe as its frame sees it: alpha_y k, and g.
+using Bend = Eigen::Vector2d;
+inline Eigen::Vector3d column_of(const Eigen::Matrix3d& frame_matrix, const Bend& bend) {
+  return frame_matrix.rightCols<2>() * bend;
+}
+// With respect to P, row-major, then the bend.
+using BentModelValue = ModelValueOf<11>;
+BentModelValue bent(const FoldedModelValue& of_columns, const Eigen::Matrix3d& frame_matrix,
+                    const Bend& bend);
+
 }  // namespace ltc

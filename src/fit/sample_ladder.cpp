@@ -23,7 +23,7 @@ constexpr double graded_prior_weight = 1e-3;
 constexpr double damping_near_minimum = 1e-3;
 
 SampleLevel make_coarse(CosineSet cosines, const GaussNewtonSettings& settings) {
-  SampleLevel level{std::move(cosines), {}};
+  SampleLevel level{std::move(cosines), {}, {}};
   level.options.steps = settings.coarse_steps;
   level.options.tolerance = settings.coarse_tolerance;
   level.options.direction_stride =
@@ -32,16 +32,24 @@ SampleLevel make_coarse(CosineSet cosines, const GaussNewtonSettings& settings) 
 }
 
 SampleLevel make_fine(CosineSet cosines, const GaussNewtonSettings& settings) {
-  SampleLevel level{std::move(cosines), {}};
+  SampleLevel level{std::move(cosines), {}, {}};
   level.options.steps = settings.steps;
   level.options.tolerance = settings.tolerance;
   level.options.damping = damping_near_minimum;
   return level;
 }
 
+void set_creases(SampleLadder& ladder, const Creases& creases) {
+  if (creases.empty())
+    return;
+  ladder.coarse.u = crease_distances(ladder.coarse.cosines, creases);
+  for (SampleLevel& level : ladder.levels)
+    level.u = crease_distances(level.cosines, creases);
+}
+
 }  // namespace
 
-SampleLadder make_ladder(const GaussNewtonSettings& settings) {
+SampleLadder make_ladder(const GaussNewtonSettings& settings, const Creases& creases) {
   const auto target_samples = static_cast<std::size_t>(settings.target_samples);
   SampleLadder ladder;
   ladder.lattice = make_target_lattice(target_samples, 0.3);
@@ -57,10 +65,11 @@ SampleLadder make_ladder(const GaussNewtonSettings& settings) {
     ladder.levels.push_back(
         make_fine(make_cosine_set(static_cast<std::size_t>(samples)), settings));
   }
+  set_creases(ladder, creases);
   return ladder;
 }
 
-SampleLadder make_graded_ladder(const GaussNewtonSettings& settings) {
+SampleLadder make_graded_ladder(const GaussNewtonSettings& settings, const Creases& creases) {
   const auto coarse =
       static_cast<std::size_t>(std::max(settings.coarse_samples, least_graded_samples));
   const auto fine = static_cast<std::size_t>(
@@ -73,6 +82,7 @@ SampleLadder make_graded_ladder(const GaussNewtonSettings& settings) {
   ladder.levels.push_back(make_fine(make_graded_cosine_set(fine), settings));
   for (SampleLevel* level : {&ladder.coarse, &ladder.levels.back()})
     level->options.prior_weight = graded_prior_weight;
+  set_creases(ladder, creases);
   return ladder;
 }
 

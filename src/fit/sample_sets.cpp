@@ -23,14 +23,6 @@ CosineSet make_cosine_set(std::size_t count, double shift) {
   return set;
 }
 
-AlignedFloats crease_distances(const CosineSet& cosines, const Creases& creases) {
-  AlignedFloats u(cosines.size());
-  for (std::size_t i = 0; i < u.size(); ++i)
-    u[i] = static_cast<float>(
-        crease_distance({cosines.x[i], cosines.y[i], cosines.z[i]}, creases));
-  return u;
-}
-
 std::size_t CosineSet::total() const {
   std::size_t sum = multiplicity.empty() ? size() : 0;
   for (const std::int32_t count : multiplicity)
@@ -76,6 +68,13 @@ std::vector<Eigen::Vector3d> turned_directions(std::size_t count, std::uint64_t 
   for (Eigen::Vector3d& direction : directions)
     direction = rotation * direction;
   return directions;
+}
+
+AlignedFloats crease_distances(const CosineSet& cosines, const Creases& creases) {
+  AlignedFloats u(cosines.size());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] = static_cast<float>(crease_distance({cosines.x[i], cosines.y[i], cosines.z[i]}, creases));
+  return u;
 }
 
 std::vector<Eigen::Vector3f> in_float(const std::vector<Eigen::Vector3d>& directions) {

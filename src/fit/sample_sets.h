@@ -30,11 +30,12 @@ struct CosineSet {
 // lattice by that share of a circle: sets with different shifts share no samples.
 CosineSet make_cosine_set(std::size_t count, double shift = 0.0);
 
-// u of every sample (ltc/folded.h).
-AlignedFloats crease_distances(const CosineSet& cosines, const Creases& creases);
-
 // The same on a graded lattice: point i of n counts 2 i + 1 of n^2.
 CosineSet make_graded_cosine_set(std::size_t count);
+
+// Of every sample the u of a fold (ltc/folded.h).
+AlignedFloats crease_distances(const CosineSet& cosines, const Creases& creases);
+
 // Spherical Fibonacci directions on the upper hemisphere; the lower one adds nothing, since d and
 // -d see the same distance.
 std::vector<Eigen::Vector3d> fibonacci_directions(std::size_t count);

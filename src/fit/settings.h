@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/enum_names.h"
+#include "ltc/folded.h"
 
 namespace ltc {
 
@@ -15,6 +16,12 @@ constexpr EnumNames<SolverKind, 3> enum_names(SolverKind) {
           {{{SolverKind::gauss_newton, "gauss-newton"},
             {SolverKind::sgd, "sgd"},
             {SolverKind::l3_nelder_mead, "l3-nelder-mead"}}}};
+}
+
+// What is fitted: an LTC, or one that is folded first (ltc/folded.h).
+enum class LobeKind { single, folded };
+constexpr EnumNames<LobeKind, 2> enum_names(LobeKind) {
+  return {"lobe", {{{LobeKind::single, "single"}, {LobeKind::folded, "folded"}}}};
 }
 
 enum class TargetKind { weighted, rejection };
@@ -82,11 +89,19 @@ struct L3Settings {
 
 struct FitSettings {
   SolverKind solver = SolverKind::gauss_newton;
+  LobeKind lobe = LobeKind::single;  // folded ones by Gauss-Newton alone
+  double crease = 0.4;               // h of a fold's first pair of creases, [0, 10]
+  double second_crease = 0;          // of its second pair, above the first, [0, 10]; 0: none
   TargetKind target = TargetKind::weighted;
   std::uint64_t seed = 1;
   GaussNewtonSettings gauss_newton;
   SgdSettings sgd;
   L3Settings l3;
+
+  // None where lobes are not folded.
+  Creases creases() const {
+    return lobe == LobeKind::folded ? creases_at(crease, second_crease) : Creases{};
+  }
 };
 
 }  // namespace ltc

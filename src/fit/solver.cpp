@@ -26,7 +26,8 @@ std::unique_ptr<Solver> make_solver(const FitSettings& settings) {
     case SolverKind::gauss_newton:
       break;
   }
-  return std::make_unique<GaussNewtonSolver>(settings.gauss_newton, settings.target);
+  return std::make_unique<GaussNewtonSolver>(settings.gauss_newton, settings.target,
+                                             settings.creases());
 }
 
 }  // namespace ltc

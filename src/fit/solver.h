@@ -12,6 +12,7 @@
 #include "brdf/ggx.h"
 #include "core/progress.h"
 #include "fit/settings.h"
+#include "ltc/folded.h"
 
 namespace ltc {
 
@@ -21,6 +22,8 @@ struct FitPhase {
     given_start,  // the coarse phase, from a start of the request
     own_start,    // the same, from one of the solver's own
     fine,         // from the best of these on; the whole descent of solvers without phases
+    fold,         // the coarse phase of a fold, from the LTC that was found or the request's folds
+    fine_fold,    // from the best of these on
   };
   Kind kind = Kind::fine;
   int index = 0;  // which of the starts, or of the fine phases
@@ -50,6 +53,13 @@ struct FitResult {
   FitOutcome outcome = FitOutcome::step_limit;
   // The starts of the request led nowhere as good as the solver's own, which this is the end of.
   bool start_abandoned = false;
+  Fold fold = {};  // before M, of a solver of folded lobes
+};
+
+// A folded lobe to start from.
+struct FoldedStart {
+  Eigen::Matrix3d matrix;
+  Fold fold;
 };
 
 struct FitRequest {
@@ -58,11 +68,15 @@ struct FitRequest {
   std::uint64_t seed = 0;
   // Matrices to start from; empty for the solver's own starting points.
   std::vector<Eigen::Matrix3d> starts;
-  // A solution that is known already. Where no start promises better, it is given back as it came
-  // with no more work than that takes to see (Gauss-Newton only).
+  // A solution that is known already (Gauss-Newton only). Where no start promises better, it is
+  // given back as it came with no more work than that takes to see. Of folded lobes, it stands in
+  // place of the LTC: no other is looked for.
   std::optional<FitResult> incumbent;
   // Where not null and a stop is asked for, the fit ends early with whatever it has.
   const Progress* progress = nullptr;
+  // Folded lobes to start from beside what follows from the LTC (by solvers of folded lobes); what
+  // has no lobe, or a determinant that is not positive, is left out.
+  std::vector<FoldedStart> folded_starts = {};
 };
 
 // The buffers of one fit at a time; one a thread, reused so that no fit allocates.

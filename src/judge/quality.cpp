@@ -34,6 +34,12 @@ void check(const QualitySettings& settings) {
   require("node directions", settings.node_directions, 1);
   require("query samples", settings.query_samples, 16);
   require("query directions", settings.query_directions, 1);
+  if (const FitSettings& floor = settings.floor_fit;
+      floor.second_crease > 0 && floor.second_crease <= floor.crease)
+    throw InputError(
+        fmt::format("quality.floor_second_crease = {} is not above quality.floor_crease = {}; "
+                    "expected more, or 0",
+                    floor.second_crease, floor.crease));
   const QueryRange& range = settings.range;
   if (range.roughness_first > range.roughness_last)
     throw InputError(fmt::format("queries of roughness from {} to {}; expected a rising range",
@@ -151,6 +157,7 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, const Grid&
       random_queries(settings.range, settings.queries, settings.seed, grid.alpha_min, *grid.model);
   std::vector<QueryFloor> floors(lobes.size());
   const std::unique_ptr<Solver> solver = make_solver(settings.floor_fit);
+  const Creases creases = settings.floor_fit.creases();
   struct State {
     FitWorkspacePointer workspace;
     AreaLightJudge area_light;
@@ -169,9 +176,12 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, const Grid&
         state.area_light.set_lobe(lobes[i], i);
         QueryFloor& floor = floors[i];
         floor.lobe = lobes[i];
-        floor.matrix = solver->fit(request, *state.workspace, nullptr).matrix;
-        floor.relative_loss = relative_loss(query_judge(settings, i), lobes[i], floor.matrix);
-        floor.area_light = state.area_light.error(floor.matrix);
+        const FitResult fit = solver->fit(request, *state.workspace, nullptr);
+        floor.matrix = fit.matrix;
+        floor.fold = fit.fold;
+        const LtcLobe ltc(fit.matrix, fit.fold, creases);
+        floor.relative_loss = relative_loss(query_judge(settings, i), lobes[i], ltc);
+        floor.area_light = state.area_light.error(ltc);
       });
   return floors;
 }

@@ -45,12 +45,13 @@ struct QualitySettings {
   FitSettings floor_fit = floor_fit_settings();
 };
 
-// A lobe that is asked for, and the LTC fitted to it.
+// A lobe that is asked for, and the LTC fitted to it, folded where the settings' floor is.
 struct QueryFloor {
   Lobe lobe;
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   double relative_loss = 0;
   AreaLightError area_light;  // with the lobe's own amplitude
+  Fold fold = {};
 };
 
 enum class QueryState {

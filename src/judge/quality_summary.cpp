@@ -149,6 +149,7 @@ std::vector<std::size_t> worst_queries(const QualityReport& report) {
 void summarize_quality(QualityReport& report) {
   const auto& queries = report.queries;
   const auto& floors = report.floors;
+  const Creases creases = report.settings.floor_fit.creases();
   report.nodes = statistics_of(report.node_losses);
   count_states(report);
   report.query_losses =
@@ -157,8 +158,9 @@ void summarize_quality(QualityReport& report) {
       statistics_of(of_judged(report, [&](auto i) { return floors[i].relative_loss; }));
   report.below_horizon =
       statistics_of(of_judged(report, [&](auto i) { return queries[i].below_horizon; }));
-  report.floor_below_horizon = statistics_of(
-      of_judged(report, [&](auto i) { return share_below_horizon(floors[i].matrix); }));
+  report.floor_below_horizon = statistics_of(of_judged(report, [&](auto i) {
+    return share_below_horizon({floors[i].matrix, floors[i].fold, creases});
+  }));
   report.area_light =
       statistics_of(of_judged(report, [&](auto i) { return queries[i].area_light.mean_absolute; }));
   report.area_light_with_amplitude = statistics_of(of_judged(

@@ -121,6 +121,10 @@ void require_creases(const Creases& creases) {
 
 }  // namespace
 
+Creases creases_at(double first, double second) {
+  return second > 0 ? Creases{first, second} : Creases{first};
+}
+
 double sum_of(const Creases& creases) {
   return std::accumulate(creases.begin(), creases.end(), 0.0);
 }

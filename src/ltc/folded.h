@@ -35,6 +35,9 @@ using Creases = std::vector<double>;
 inline const Creases usual_creases = {0.4};
 inline const Creases two_pairs_of_creases = {0.3, 1.0};
 
+// One pair, or two where `second` is not 0.
+Creases creases_at(double first, double second);
+
 // Of all h, the H of the last piece.
 double sum_of(const Creases& creases);
 

@@ -12,6 +12,8 @@
 #include "fit/lobe_frame.h"
 #include "fit/starting_points.h"
 #include "judge/held_out.h"
+#include "postprocess/normalise.h"
+#include "table/reduction.h"
 
 namespace ltc {
 namespace {
@@ -31,11 +33,34 @@ void finish(const Config& config, LobeFit& fit) {
   fit.aligned = fit.finished.stored = fit.matrix =
       Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
   if (has_values(fit.fitted.status)) {
-    fit.aligned = align(fit.fitted.matrix);
-    fit.finished = post_process(fit.lobe, config.storage, fit.aligned);
+    if (fit.creases.empty()) {
+      fit.aligned = align(fit.fitted.matrix);
+      fit.finished = post_process(fit.lobe, config.storage, fit.aligned);
+    } else {
+      fit.aligned = fit.fitted.matrix;
+      fit.finished.stored = normalise(
+          config.storage, stored_from_matrix(config.storage, fit.fitted.matrix, fit.lobe));
+    }
     fit.matrix = matrix_from_stored(config.storage, fit.finished.stored, fit.lobe);
   }
-  fit.held_out_loss = judge.loss(fit.matrix);
+  fit.held_out_loss = judge.loss({fit.matrix, fit.fitted.fold, fit.creases});
+  if (fit.ltc)
+    fit.ltc_held_out_loss = judge.loss(fit.ltc->matrix);
+}
+
+// What is told of a fold, before finish().
+void note_fold(const Config& config, const FitRequest& request, FitWorkspace& workspace,
+               LobeFit& fit) {
+  fit.creases = config.fit.creases();
+  if (fit.creases.empty())
+    return;
+  Lobe bounded = fold(fit.lobe).lobe;
+  bounded.alpha_x = std::max(bounded.alpha_x, config.grid.alpha_min);
+  bounded.alpha_y = std::max(bounded.alpha_y, config.grid.alpha_min);
+  fit.kappa = kappa_of(fit.fitted.fold, bounded);
+  FitSettings single = config.fit;
+  single.lobe = LobeKind::single;
+  fit_entry(*make_solver(single), request, workspace, nullptr, fit.ltc.emplace());
 }
 
 }  // namespace
@@ -95,9 +120,11 @@ LobeFit fit_lobe(const Config& config, const Lobe& lobe, std::uint64_t seed,
   LobeFit fit;
   fit.lobe = lobe;
   fit.fits.resize(1);
-  fit.start_abandoned = fit_entry(*make_solver(config.fit), request, *make_fit_workspace(),
-                                  &fit.fits.front().steps, fit.fitted)
-                            .start_abandoned;
+  const FitWorkspacePointer workspace = make_fit_workspace();
+  fit.start_abandoned =
+      fit_entry(*make_solver(config.fit), request, *workspace, &fit.fits.front().steps, fit.fitted)
+          .start_abandoned;
+  note_fold(config, request, *workspace, fit);
   run.throw_if_stopped();
   finish(config, fit);
   return fit;
@@ -110,12 +137,13 @@ Eigen::Matrix3d starting_matrix(StartKind kind, const Lobe& lobe, std::uint64_t 
   return frame.to_matrix(start_of_kind(kind, frame, target, seed));
 }
 
-GradientCheck check_lobe_gradient(const Lobe& lobe, const Eigen::Matrix3d& matrix) {
+GradientCheck check_lobe_gradient(const Lobe& lobe, const Eigen::Matrix3d& matrix, const Fold& fold,
+                                  const Creases& creases) {
   const LobeFrame frame(lobe);
   const CosineSet cosines = make_cosine_set(check_samples);
   std::vector<Eigen::Vector3d> omega_o(cosines.size());
   for (std::size_t i = 0; i < cosines.size(); ++i)
-    omega_o[i] = {cosines.x[i], cosines.y[i], cosines.z[i]};
+    omega_o[i] = folded(Eigen::Vector3d(cosines.x[i], cosines.y[i], cosines.z[i]), fold, creases);
   TargetSamples samples;
   sample_weighted_target(frame, make_target_lattice(check_target_samples, 0.3), samples);
   PointSet target;

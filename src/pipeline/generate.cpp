@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "align/align.h"
 #include "brdf/albedo.h"
@@ -16,17 +17,19 @@
 #include "core/platform.h"
 #include "core/version.h"
 #include "fit/fit_table.h"
+#include "fit/solver.h"
 #include "pipeline/post_process.h"
 #include "postprocess/normalise.h"
 #include "refine/refine_queries.h"
 #include "table/field_table.h"
 #include "table/query_range.h"
+#include "table/symmetry.h"
 
 namespace ltc {
 namespace {
 
 // Numbers of the field that a folded table starts from.
-constexpr int folded_start_size = 1024;
+constexpr int folded_start_size = 512;
 
 void align_all(std::vector<FittedEntry>& entries, const RunContext& run) {
   parallel_for_each("align", entries.size(), run, [&](std::size_t i) {
@@ -227,6 +230,53 @@ Table nodes_of_small_field(const Config& config, const std::vector<QueryRange>& 
   return table;
 }
 
+// The node itself, or at theta = 0, where every phi has the same lobe, the first one with values.
+std::size_t first_of_same(const Table& table, std::size_t flat) {
+  NodeIndex node = table.grid.node(flat);
+  if (!looks_upward(table.grid.theta.nodes[node.theta]))
+    return flat;
+  for (node.phi = 0; !has_values(table.status[table.grid.flat(node)]);)
+    ++node.phi;
+  return table.grid.flat(node);
+}
+
+// Each node fitted by itself, from the values that it has.
+void fit_folded_nodes(const FitSettings& settings, const RunContext& run, Table& table) {
+  const std::unique_ptr<Solver> solver = make_solver(settings);
+  const auto fit = [&](std::size_t flat, FitWorkspace& workspace) {
+    FitRequest request;
+    request.lobe = table.grid.lobe(flat);
+    request.seed = entry_seed(settings.seed, flat);
+    request.incumbent.emplace();
+    request.incumbent->matrix = table.matrix_at(flat);
+    request.incumbent->fold = table.fold_at(flat);
+    request.progress = run.progress;
+    return solver->fit(request, workspace, nullptr);
+  };
+  parallel_for_each<FitWorkspacePointer>(
+      "fit", table.grid.size(), run, make_fit_workspace,
+      [&](std::size_t flat, FitWorkspacePointer& workspace) {
+        if (!has_values(table.status[flat]) || first_of_same(table, flat) != flat)
+          return;
+        const FitResult result = fit(flat, *workspace);
+        const Lobe lobe = table.grid.lobe(flat);
+        table.set_stored(flat, normalise(table.storage, stored_from_matrix(
+                                                            table.storage, result.matrix, lobe)));
+        table.fold[2 * flat] = static_cast<float>(kappa_of(result.fold, lobe));
+        table.fold[2 * flat + 1] = static_cast<float>(result.fold.g);
+        table.sw_loss[flat] = static_cast<float>(result.loss);
+        table.iterations[flat] = static_cast<std::uint16_t>(result.steps);
+      });
+  for (std::size_t flat = 0; flat < table.grid.size(); ++flat)
+    if (const bool made = has_values(table.status[flat]);
+        made && first_of_same(table, flat) != flat) {
+      FoldedNode node;
+      get_node(table, first_of_same(table, flat), node);
+      set_node(node, flat, table);
+      table.status[flat] = Status::copied;
+    }
+}
+
 void describe(const Config& config, Table& table) {
   table.seed = config.fit.seed;
   table.config = to_toml(config);
@@ -307,8 +357,13 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
   if (is_folded(table)) {
     table = nodes_of_small_field(config, context.asked, run);
     skip_others(needed, table);
-    measure_losses(run, table);
     finish_stage("field");
+    if (config.refine.steps == 0) {
+      fit_folded_nodes(config.fit, run, table);
+      result.fits = lobes;
+      finish_stage("fit");
+    }
+    measure_losses(run, table);
   } else {
     result.fits = lobes;
     result.fits_of_whole_grid = EqualLobes(config.grid).count();

@@ -155,11 +155,6 @@ void require_formats(const Config& config) {
     throw InputError(fmt::format(
         "field.loss = {} without a field: field.size is 0; expected the most numbers it may have",
         config.field.loss));
-  if (const FieldSettings& field = config.field;
-      field.second_crease > 0 && field.second_crease <= field.crease)
-    throw InputError(
-        fmt::format("field.second_crease = {} is not above field.crease = {}; expected more, or 0",
-                    field.second_crease, field.crease));
   for (const Format& format : formats()) {
     if (!format.is_asked(config) || OutputSettings{}.*format.asked)
       continue;

@@ -142,15 +142,6 @@ Start start_of(const WeightedLobes& lobes, double alpha_min, const QuerySampling
   return start;
 }
 
-Creases creases_of(const FieldSettings& settings) {
-  if (!settings.folded)
-    return {};
-  Creases creases = {settings.crease};
-  if (settings.second_crease > 0)
-    creases.push_back(settings.second_crease);
-  return creases;
-}
-
 // A fold to begin with: without one, neither sign is better than the other.
 constexpr double first_kappa = -0.8;
 void bend(Start& start) {
@@ -386,13 +377,13 @@ Field fit_field(double alpha_min, const LobeModel& model, const std::vector<Quer
   const WeightedLobes held_out =
       queries_held_out(alpha_min, model, asked, judging, lobes.lobes.size());
   const auto size = static_cast<std::size_t>(settings.size);
-  const Creases creases = creases_of(settings);
-  const std::vector<FieldTerm> pool = matrix_pool_of_size(pool_size(size), settings.folded);
+  const Creases& creases = settings.creases;
+  const std::vector<FieldTerm> pool = matrix_pool_of_size(pool_size(size), !settings.creases.empty());
   result.queries = lobes.lobes.size();
   result.pool = pool.size();
   Field field{alpha_min, &model, {}, creases, {}, {}};
   Start start = start_of(lobes, alpha_min, judging.sampling, run);
-  if (settings.folded)
+  if (!settings.creases.empty())
     bend(start);
   {
     const std::size_t evaluations = static_cast<std::size_t>(settings.steps) + pool_steps + 4;

@@ -3,12 +3,12 @@
 // What the config's [field] section says.
 #pragma once
 
+#include "ltc/folded.h"
+
 namespace ltc {
 
 struct FieldSettings {
-  bool folded = false;       // with a fold (ltc/folded.h)
-  double crease = 0.4;       // h of its first pair of creases, [0, 10]
-  double second_crease = 0;  // of its second pair, above the first, [0, 10]; 0: none
+  Creases creases = {};   // of a fold (ltc/folded.h); none: without one
   int size = 0;           // numbers of the matrix, [0, 8192]; 0: no field but a table of fits
   int albedo_size = 600;  // numbers of amplitude and Fresnel term together, [2, 2000]
   double loss = 0;   // the smallest field with at most this held-out loss is sought, [0, 1]; 0: no

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -209,16 +210,26 @@ std::vector<WeightedPoint> lobe_points(const LobeSampler& sampler, const LobeWin
   return points;
 }
 
-Eigen::Vector3d sample_of(const LinearlyTransformed& ltc, std::size_t i, std::size_t count) {
+// `use` of the lobe, which has density() and sample().
+template <typename Use>
+auto with_lobe(const ShownLobe& shown, const Use& use) {
+  if (shown.creases.empty())
+    return use(LinearlyTransformed(shown.matrix));
+  return use(FoldedCosine(shown.matrix, shown.fold, shown.creases));
+}
+
+template <typename Transformed>
+Eigen::Vector3d sample_of(const Transformed& ltc, std::size_t i, std::size_t count) {
   return ltc.sample((static_cast<double>(i) + 0.5) / static_cast<double>(count), golden_turns(i));
 }
 
-std::vector<WeightedPoint> ltc_points(const LinearlyTransformed& ltc, const LobeWindow& window) {
-  std::vector<WeightedPoint> points;
-  for (std::size_t i = 0; i < window_samples; ++i) {
-    points.push_back({window.project(sample_of(ltc, i, window_samples)), 1});
-  }
-  return points;
+std::vector<WeightedPoint> points_of(const ShownLobe& shown, const LobeWindow& window) {
+  return with_lobe(shown, [&](const auto& ltc) {
+    std::vector<WeightedPoint> points;
+    for (std::size_t i = 0; i < window_samples; ++i)
+      points.push_back({window.project(sample_of(ltc, i, window_samples)), 1});
+    return points;
+  });
 }
 
 }  // namespace
@@ -241,11 +252,16 @@ LobeWindow hemisphere_window() {
 }
 
 LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix) {
+  return choose_window(lobe, std::array{ShownLobe{matrix}});
+}
+
+LobeWindow choose_window(const Lobe& lobe, std::span<const ShownLobe> beside) {
   LobeWindow window{LobeFrame(lobe).rotation, 0, 0, 0, false};
   Bounds bounds;
   bounds.include_bulk(lobe_points(*lobe.model->sampler(lobe), window));
-  if (is_invertible(matrix))
-    bounds.include_bulk(ltc_points(LinearlyTransformed(matrix), window));
+  for (const ShownLobe& shown : beside)
+    if (is_invertible(shown.matrix))
+      bounds.include_bulk(points_of(shown, window));
   const Eigen::Vector2d center = (bounds.low + bounds.high) / 2;
   window.center_x = center.x();
   window.center_y = center.y();
@@ -266,20 +282,21 @@ Field lobe_density(const Lobe& lobe, const LobeWindow& window, std::size_t side)
       window, sampler->mirror(), side);
 }
 
-Field ltc_density(const Eigen::Matrix3d& matrix, const Lobe& lobe, const LobeWindow& window,
+Field ltc_density(const ShownLobe& shown, const Lobe& lobe, const LobeWindow& window,
                   std::size_t side) {
-  if (!is_invertible(matrix))
+  if (!is_invertible(shown.matrix))
     return {side, side, std::vector<float>(side * side, no_value)};
-  const LinearlyTransformed ltc(matrix);
   const Eigen::Vector3d mirror = lobe.mirror();
-  const auto density = [&](const Direction& d) { return ltc.density(d.omega); };
-  return mean_density({density,
-                       [&](std::size_t i, std::size_t count) {
-                         const Eigen::Vector3d omega = sample_of(ltc, i, count);
-                         return Direction{omega, omega - mirror};
-                       },
-                       density},
-                      window, mirror, side);
+  return with_lobe(shown, [&](const auto& ltc) {
+    const auto density = [&](const Direction& d) { return ltc.density(d.omega); };
+    return mean_density({density,
+                         [&](std::size_t i, std::size_t count) {
+                           const Eigen::Vector3d omega = sample_of(ltc, i, count);
+                           return Direction{omega, omega - mirror};
+                         },
+                         density},
+                        window, mirror, side);
+  });
 }
 
 }  // namespace ltc

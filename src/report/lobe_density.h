@@ -5,11 +5,20 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 
 #include "brdf/ggx.h"
+#include "ltc/folded.h"
 #include "picture/canvas.h"
 
 namespace ltc {
+
+// What is shown beside GGX: an LTC, folded where there are creases (ltc/folded.h).
+struct ShownLobe {
+  Eigen::Matrix3d matrix;
+  Fold fold = {};
+  Creases creases = {};
+};
 
 // Where a picture looks: a square in Lambert's azimuthal equal-area projection about an axis, in
 // which a direction at the angle a from the axis is 2 sin(a/2) from the origin (for small angles,
@@ -30,7 +39,8 @@ struct LobeWindow {
 LobeWindow hemisphere_window();
 
 // The hemisphere for broad lobes. For others a square about the mirror direction that holds at
-// least nine tenths of the GGX lobe and, where `matrix` is finite, of its LTC.
+// least nine tenths of the GGX lobe and, where they are finite, of those shown beside it.
+LobeWindow choose_window(const Lobe& lobe, std::span<const ShownLobe> beside);
 LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix);
 
 // Mean densities per steradian of the pixels of a window, `side` by `side`, row by row from the
@@ -38,7 +48,7 @@ LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix);
 // centre is below the horizon in a picture of the hemisphere; all NaN for an LTC whose matrix is
 // singular or not finite. A ridge thinner than a pixel has its mass in the pixels that it crosses.
 picture::Field lobe_density(const Lobe& lobe, const LobeWindow& window, std::size_t side);
-picture::Field ltc_density(const Eigen::Matrix3d& matrix, const Lobe& lobe,
-                           const LobeWindow& window, std::size_t side);
+picture::Field ltc_density(const ShownLobe& shown, const Lobe& lobe, const LobeWindow& window,
+                           std::size_t side);
 
 }  // namespace ltc

@@ -75,13 +75,17 @@ picture::Scale difference_scale(const Field& difference, const picture::Scale& d
 
 }  // namespace
 
-picture::Scale density_scale(const Field& ggx, const Field& ltc) {
-  const double peak = std::max(largest_value(ggx), largest_value(ltc));
+picture::Scale density_scale(const Field& ggx, std::span<const Field> beside) {
+  double peak = largest_value(ggx);
+  for (const Field& field : beside)
+    peak = std::max(peak, largest_value(field));
   if (!(peak > 0))
     return picture::Scale::linear(0, 1);
   if (peak < sharp_peak * mean_value(ggx))
     return picture::Scale::linear(0, peak);
-  const double bulk = std::min(bulk_density(ggx), bulk_density(ltc));
+  double bulk = bulk_density(ggx);
+  for (const Field& field : beside)
+    bulk = std::min(bulk, bulk_density(field));
   return picture::Scale::logarithmic(std::clamp(bulk, 1e-5 * peak, 0.03 * peak), peak);
 }
 
@@ -93,16 +97,29 @@ std::string lobe_caption(const Lobe& lobe) {
 
 picture::PanelRow lobe_panels(const Lobe& lobe, const Eigen::Matrix3d& matrix, picture::Words words,
                               std::size_t side) {
-  const LobeWindow window = choose_window(lobe, matrix);
+  return lobe_panels(lobe, {{"LTC", {matrix}}}, std::move(words), side);
+}
+
+picture::PanelRow lobe_panels(const Lobe& lobe, const std::vector<NamedLobe>& beside,
+                              picture::Words words, std::size_t side) {
+  std::vector<ShownLobe> shown;
+  for (const NamedLobe& named : beside)
+    shown.push_back(named.lobe);
+  const LobeWindow window = choose_window(lobe, shown);
   const Field ggx = lobe_density(lobe, window, side);
-  const Field ltc = ltc_density(matrix, lobe, window, side);
-  const Field difference = difference_of(ltc, ggx);
-  const picture::Scale scale = density_scale(ggx, ltc);
+  std::vector<Field> fields;
+  for (const ShownLobe& one : shown)
+    fields.push_back(ltc_density(one, lobe, window, side));
+  const Field difference = difference_of(fields.back(), ggx);
+  const picture::Scale scale = density_scale(ggx, fields);
   const bool logarithmic = scale.kind() == picture::ScaleKind::logarithmic;
   picture::PanelRow row;
   row.words = std::move(words);
   row.words.lines_below.push_back(window_words(window));
-  row.panels = {{"GGX", ggx, 0}, {"LTC", ltc, 0}, {"LTC − GGX", difference, 1}};
+  row.panels = {{"GGX", ggx, 0}};
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    row.panels.push_back({beside[i].name, fields[i], 0});
+  row.panels.push_back({beside.back().name + " − GGX", difference, 1});
   row.scales = {{.scale = scale, .title = "density, 1/sr"},
                 {.scale = difference_scale(difference, scale),
                  .map = &picture::ColorMap::diverging(),

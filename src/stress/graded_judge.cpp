@@ -121,14 +121,14 @@ void GradedJudge::set_lobe(const Lobe& lobe) {
   noise_ = distance_to_lobe(points_);
 }
 
-double GradedJudge::loss(const Eigen::Matrix3d& matrix) {
+double GradedJudge::loss(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases) {
   const Eigen::Matrix3d p = frame_->rotation.transpose() * matrix / matrix.cwiseAbs().maxCoeff();
   for (std::size_t i = 0; i < of_cosine_.mass.size(); ++i) {
     // Of a clamped cosine the squared sine is uniform, and the squared cosine t^2.
     const double sine = std::sqrt(1 - of_cosine_.depth[i]);
-    const Eigen::Vector3d f =
-        p * Eigen::Vector3d(sine * of_cosine_.cos_azimuth[i], sine * of_cosine_.sin_azimuth[i],
-                            std::sqrt(of_cosine_.depth[i]));
+    const Eigen::Vector3d omega_o(sine * of_cosine_.cos_azimuth[i],
+                                  sine * of_cosine_.sin_azimuth[i], std::sqrt(of_cosine_.depth[i]));
+    const Eigen::Vector3d f = p * folded(omega_o, fold, creases);
     const double lateral = f.head<2>().squaredNorm(), length = f.norm();
     // f_z / |f| - 1, without cancellation in front.
     points_.offset.col(static_cast<Eigen::Index>(i)) << f.x() / length, f.y() / length,

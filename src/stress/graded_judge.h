@@ -13,6 +13,7 @@
 #include "brdf/lobe_model.h"
 #include "core/aligned.h"
 #include "fit/lobe_frame.h"
+#include "ltc/folded.h"
 
 namespace hwy {
 class Sorter;
@@ -36,9 +37,9 @@ class GradedJudge {
   // Sets the lobe that the others judge against; before either.
   void set_lobe(const Lobe& lobe);
 
-  // Equation (9) of Aakash et al. 2022 between the lobe and the LTC of M; NaN for a matrix that is
-  // not finite, or that sends a sample nowhere.
-  double loss(const Eigen::Matrix3d& matrix);
+  // Equation (9) of Aakash et al. 2022 between the lobe and the LTC of M, folded or not
+  // (ltc/folded.h); NaN for a matrix or a fold that is not finite, or that sends a sample nowhere.
+  double loss(const Eigen::Matrix3d& matrix, const Fold& fold = {}, const Creases& creases = {});
 
   // What `loss` says of the lobe itself, sampled anew: losses below it cannot be told apart.
   double noise() const { return noise_; }

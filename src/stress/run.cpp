@@ -31,7 +31,8 @@ class Runner {
       : task_(task),
         progress_(context.progress),
         solver_(make_solver(task.fit)),
-        reference_(make_solver(task.reference)) {}
+        reference_(make_solver(task.reference)),
+        creases_(task.fit.creases()) {}
 
   // All fits of a lobe; fills the lobe's place of `run`.
   void fit(std::size_t index, Worker& worker, StressRun& run) const {
@@ -46,8 +47,8 @@ class Runner {
     }
     const FitResult reference =
         reference_->fit(request(lobe, task_.reference), *worker.workspace, nullptr);
-    run.best_loss[index] =
-        set_ratios(fits, worker.judge.loss(reference.matrix), worker.judge.noise());
+    run.best_loss[index] = set_ratios(fits, worker.judge.loss(reference.matrix),
+                                      worker.judge.noise(), task_.fit.lobe == LobeKind::folded);
     std::copy(fits.begin(), fits.end(),
               run.fits.begin() + static_cast<std::ptrdiff_t>(index * fits.size()));
   }
@@ -75,23 +76,26 @@ class Runner {
     fit.steps = result.steps;
     fit.outcome = result.outcome;
     fit.start_abandoned = result.start_abandoned;
+    fit.fold = result.fold;
+    fit.one_to_one = is_one_to_one(result.fold, creases_);
     return fit;
   }
 
   // Of the last one: fits that came to the same matrix are judged once.
-  static void judge_last(std::vector<StressFit>& fits, GradedJudge& judge) {
+  void judge_last(std::vector<StressFit>& fits, GradedJudge& judge) const {
     StressFit& last = fits.back();
     for (std::size_t i = 0; i + 1 < fits.size(); ++i)
-      if (fits[i].matrix == last.matrix) {
+      if (fits[i].matrix == last.matrix && fits[i].fold == last.fold) {
         last.loss = fits[i].loss;
         return;
       }
-    last.loss = judge.loss(last.matrix);
+    last.loss = judge.loss(last.matrix, last.fold, creases_);
   }
 
   const StressTask& task_;
   const Progress* progress_;
   std::unique_ptr<Solver> solver_, reference_;
+  Creases creases_;
 };
 
 }  // namespace
@@ -101,17 +105,18 @@ bool StressFit::finite() const {
 }
 
 bool StressFit::determinant_positive() const {
-  return matrix.determinant() > 0;
+  return matrix.determinant() > 0 && one_to_one;
 }
 
 std::uint64_t stress_seed(const FitSettings& fit) {
   return entry_seed(fit.seed, 0);
 }
 
-double set_ratios(std::vector<StressFit>& fits, double reference_loss, double noise) {
+double set_ratios(std::vector<StressFit>& fits, double reference_loss, double noise,
+                  bool reference_alone) {
   double best = reference_loss;
   for (const StressFit& fit : fits)
-    if (fit.finite() && fit.determinant_positive())
+    if (!reference_alone && fit.finite() && fit.determinant_positive())
       best = std::fmin(best, fit.loss);  // takes the number of a number and a NaN
   for (StressFit& fit : fits)
     fit.ratio = fit.finite() ? std::max(fit.loss, noise) / std::max(best, noise)

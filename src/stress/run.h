@@ -20,7 +20,9 @@ namespace ltc {
 
 struct StressTask {
   FitSettings fit;
-  // What `fit` is measured against beside its own fits: the best of the two at each lobe.
+  // What `fit` is measured against beside its own fits: the best of the two at each lobe. Folded
+  // fits are measured against it alone: of several folds that are all better than the LTC, which
+  // one a start leads to is no failure.
   FitSettings reference;
   std::vector<StressLobe> lobes;
   CompareSettings judge;  // the judge of all, see graded_judge.h
@@ -36,9 +38,11 @@ struct StressFit {
   double seconds = 0;
   FitOutcome outcome = FitOutcome::step_limit;
   bool start_abandoned = false;
+  Fold fold = {};
+  bool one_to_one = true;  // its fold
 
   bool finite() const;
-  bool determinant_positive() const;
+  bool determinant_positive() const;  // with a fold that is one to one
 };
 
 struct StressRun {
@@ -57,8 +61,10 @@ std::uint64_t stress_seed(const FitSettings& fit);
 StressRun run_stress(const StressTask& task, const RunContext& context);
 
 // `ratio` of all fits of a lobe, whose losses are known: over the least of them that a finite
-// matrix with determinant > 0 has, `reference_loss` (which may be NaN) included. Losses below the
-// judge's noise count as much as the noise. Returns the least loss.
-double set_ratios(std::vector<StressFit>& fits, double reference_loss, double noise);
+// matrix with determinant > 0 has, `reference_loss` (which may be NaN) included; or over the latter
+// alone, which it returns then. Losses below the judge's noise count as much as the noise. Returns
+// the least loss.
+double set_ratios(std::vector<StressFit>& fits, double reference_loss, double noise,
+                  bool reference_alone = false);
 
 }  // namespace ltc

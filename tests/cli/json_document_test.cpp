@@ -113,6 +113,7 @@ TEST_F(JsonDocumentOf, Fit) {
   const Arguments entry = {"--entry", "1,1,1,1"};
   expect_documented(
       {Arguments{"fit", "--samples", "64", "--check-gradient"} + lobe,
+       Arguments{"fit", "--samples", "64", "--set", "fit.lobe=folded"} + lobe,
        Arguments{"fit", "--samples", "64", "--solver", "sgd", "--set", "fit.sgd.steps=2"} + lobe,
        {"fit", "--entry", "1,7,1,7"},
        Arguments{"fit", "--set", "table.storage=mirror-frame"} + entry,

@@ -68,9 +68,18 @@ TEST(StressCommand, OtherSolversAreShownWithoutABar) {
   EXPECT_NE(result.out.find("no bar"), std::string::npos) << result.out;
 }
 
+TEST(StressCommand, FoldsAreMeasuredAgainstTheLtc) {
+  const ProgramResult result =
+      run_ltcfit({"stress", "--quick", "--fits", "170", "--set", "fit.lobe=folded"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("does not fold"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("all bars reached"), std::string::npos) << result.out;
+}
+
 TEST(StressCommand, RefusesWhatItDoesNotTake) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"stress", "--solver", "newton"},
+        {"stress", "--solver", "sgd", "--set", "fit.lobe=folded"},
         {"stress", "--fits", "0"},
         {"stress", "--fits", "many"},
         {"stress", "--seed", "-1"},

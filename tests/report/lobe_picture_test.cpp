@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -86,7 +88,7 @@ TEST(LobePicture, DensitiesIntegrateToOneOverTheHemisphere) {
         << test::describe(lobe);
     const Eigen::Matrix3d matrix = first_order_matrix(lobe);
     // An LTC may lie below the horizon in part.
-    EXPECT_NEAR(integral(ltc_density(matrix, lobe, window, side), window),
+    EXPECT_NEAR(integral(ltc_density({matrix}, lobe, window, side), window),
                 ltc_share(matrix, window), 0.02)
         << test::describe(lobe);
   }
@@ -101,7 +103,7 @@ TEST(LobePicture, DensitiesOfAZoomedWindowIntegrateToItsShare) {
     // 20,000 random samples: a standard error of 0.2 %; the picture's own error 1 %.
     EXPECT_NEAR(integral(lobe_density(lobe, window, side), window), ggx_share(lobe, window), 0.02)
         << test::describe(lobe);
-    EXPECT_NEAR(integral(ltc_density(matrix, lobe, window, side), window),
+    EXPECT_NEAR(integral(ltc_density({matrix}, lobe, window, side), window),
                 ltc_share(matrix, window), 0.02)
         << test::describe(lobe);
   }
@@ -111,7 +113,7 @@ TEST(LobePicture, DensityOfAPixelIsThatOfItsMiddleWhereTheLobeIsSmooth) {
   const Lobe lobe{0.6, 0.4, 0.5, 0.3};
   const Eigen::Matrix3d matrix = first_order_matrix(lobe);
   const LinearlyTransformed ltc(matrix);
-  const picture::Field field = ltc_density(matrix, lobe, hemisphere_window(), side);
+  const picture::Field field = ltc_density({matrix}, lobe, hemisphere_window(), side);
   // A pixel right of the middle and one above: x to the right, y up.
   const double step = 2 * std::numbers::sqrt2 / side;
   const auto direction = [](double x, double y) {
@@ -163,7 +165,7 @@ TEST(LobePicture, WindowFollowsAMisplacedLtc) {
 TEST(LobePicture, ScaleIsLogarithmicForSharpLobes) {
   const auto kind_of = [](const Lobe& lobe, const LobeWindow& window) {
     const picture::Field ggx = lobe_density(lobe, window, side);
-    return density_scale(ggx, ggx).kind();
+    return density_scale(ggx, std::array{ggx}).kind();
   };
   const LobeWindow hemisphere = hemisphere_window();
   EXPECT_EQ(kind_of({1, 1, 0, 0}, hemisphere), picture::ScaleKind::linear);
@@ -174,8 +176,8 @@ TEST(LobePicture, ScaleIsLogarithmicForSharpLobes) {
 
 TEST(LobePicture, ScaleHoldsThePeaksOfBoth) {
   const picture::Field low{2, 1, {0.5f, 1.0f}}, high{2, 1, {0.5f, 3.0f}};
-  EXPECT_FLOAT_EQ(static_cast<float>(density_scale(low, high).last()), 3);
-  EXPECT_FLOAT_EQ(static_cast<float>(density_scale(high, low).last()), 3);
+  EXPECT_FLOAT_EQ(static_cast<float>(density_scale(low, std::array{high}).last()), 3);
+  EXPECT_FLOAT_EQ(static_cast<float>(density_scale(high, std::array{low}).last()), 3);
 }
 
 TEST(LobePicture, WithoutAMatrixTheLtcIsMissing) {
@@ -190,6 +192,35 @@ TEST(LobePicture, WithoutAMatrixTheLtcIsMissing) {
     }
     EXPECT_GT(integral(row.panels[0].field, choose_window(lobe, matrix)), 0.9);
   }
+}
+
+TEST(LobePicture, AFoldedLobeStandsBesideTheLtc) {
+  const Lobe lobe{0.5, 0.3, 0.6, 0.4};
+  const Eigen::Matrix3d matrix = first_order_matrix(lobe);
+  const ShownLobe bent{matrix, {-0.8, 0.2}, usual_creases};
+  const picture::PanelRow row =
+      lobe_panels(lobe, {{"LTC", {matrix}}, {"folded LTC", bent}}, {}, 64);
+  ASSERT_EQ(row.panels.size(), 4u);
+  EXPECT_EQ(row.panels[2].title, "folded LTC");
+  EXPECT_EQ(row.panels[3].title, "folded LTC − GGX");
+  // A density: what of it is above the horizon, to a hundredth.
+  const LobeWindow window = hemisphere_window();
+  EXPECT_NEAR(integral(ltc_density(bent, lobe, window, 128), window),
+              1 - share_below_horizon(matrix, bent.fold, bent.creases), 0.01);
+  // Where it is the LTC's, so is its picture, but for rounding.
+  const picture::Field straight = ltc_density({matrix, {}, usual_creases}, lobe, window, 32);
+  const picture::Field plain = ltc_density({matrix}, lobe, window, 32);
+  double difference = 0, bend = 0;
+  for (std::size_t i = 0; i < plain.values.size(); ++i)
+    if (!std::isnan(plain.values[i]))
+      difference =
+          std::max(difference, std::abs(static_cast<double>(straight.values[i]) - plain.values[i]));
+  for (std::size_t i = 0; i < row.panels[1].field.values.size(); ++i)
+    if (!std::isnan(row.panels[1].field.values[i]))
+      bend = std::max(bend, std::abs(static_cast<double>(row.panels[2].field.values[i]) -
+                                     row.panels[1].field.values[i]));
+  EXPECT_LT(difference, 1e-5);
+  EXPECT_GT(bend, 0.1);
 }
 
 TEST(LobePicture, DifferenceIsThatOfThePanels) {

@@ -55,6 +55,24 @@ TEST(Stress, ShortRun) {
   EXPECT_EQ(verdict.by_start[0].abandoned, 0u);
 }
 
+// Never worse than the LTC of the same lobe, and mostly better.
+TEST(Stress, ShortRunOfFolds) {
+  StressTask task = short_task();
+  task.fit.lobe = LobeKind::folded;
+  const StressRun run = run_stress(task, {2});
+  const StressVerdict verdict = judge_stress(run.fits, 3);
+  EXPECT_EQ(verdict.missed_bars, std::vector<std::string>());
+  EXPECT_EQ(verdict.bad.failures(), 0u);
+  std::size_t folded = 0, better = 0;
+  for (const StressFit& fit : run.fits) {
+    folded += fit.fold != Fold{};
+    better += fit.ratio < 0.95;
+  }
+  // Of the lobes of the list, two thirds are neither isotropic nor those of the closed form.
+  EXPECT_GT(folded, run.fits.size() / 4);
+  EXPECT_GT(better, run.fits.size() / 8);
+}
+
 TEST(Stress, SameBitsWithAnyNumberOfThreads) {
   StressTask task = short_task();
   task.lobes.resize(3);

@@ -82,6 +82,9 @@ TEST(StressVerdict, EveryCounterCanFail) {
       EXPECT_EQ(verdict.worst.front(), stress_starts().size() + start);
     }
 
+    EXPECT_EQ(
+        counts(with([](StressFit& fit) { fit.one_to_one = false; })).determinants_not_positive, 1u);
+
     const StressVerdict verdict = with([](StressFit& fit) { fit.ratio = 1.06; });
     EXPECT_EQ(counts(verdict).missed, 1u);
     EXPECT_EQ(counts(verdict).largest_ratio, 1.06);
@@ -129,6 +132,15 @@ TEST(StressRatios, AreOverTheLeastOfGoodMatrices) {
   EXPECT_DOUBLE_EQ(fits[3].ratio, 1);
   EXPECT_EQ(set_ratios(fits, 0.01, 0), 0.01) << "the reference's";
   EXPECT_DOUBLE_EQ(fits[3].ratio, 2);
+}
+
+// Folds are measured against the LTC, not against each other.
+TEST(StressRatios, TheReferenceAloneCanBeTheMeasure) {
+  std::vector<StressFit> fits = good_fits(1);
+  fits[0].loss = 0.005;
+  EXPECT_EQ(set_ratios(fits, 0.01, 0, true), 0.01);
+  EXPECT_DOUBLE_EQ(fits[0].ratio, 0.5);
+  EXPECT_DOUBLE_EQ(fits[1].ratio, 2);
 }
 
 TEST(StressRatios, NoiseCountsAsEqual) {
