@@ -59,7 +59,10 @@ std::string library(const std::string& language, CodeLanguage code, const Tables
   std::string text = text_of(language, "lobe") + text_of(language, "table") +
                      table_constant(tables.table.grid, tables.table.storage, code);
   text += field_function(*tables.field.field, code);
-  for (const char* const name : {"field", "isotropic", "polygon", "disk", "line", "texture"})
+  text += field_function(*tables.folded_field.field, code);
+  for (const char* const name :
+       {"field", "isotropic", "polygon", "disk", "line", "texture", "folded", "folded_lights",
+        "folded_field"})
     text += text_of(language, name);
   return text;
 }
@@ -183,13 +186,20 @@ std::vector<Eigen::Vector3d> star(const Case& asked) {
 }
 
 // A strip upright on the plane of line and origin, so thin that its share is as its width.
-double line(const Eigen::Matrix3d& matrix, const Case& asked, double radius) {
+struct Strip {
+  std::vector<Eigen::Vector3d> vertices;
+  double half;
+};
+Strip strip_of(const Eigen::Matrix3d& matrix, const Case& asked) {
   const Eigen::Vector3d q = asked.p + asked.a, normal = asked.p.cross(q).normalized();
   // A millionth of the lobe's own width.
   const double half = 1e-6 * (matrix.transpose() * normal).norm() * asked.p.norm();
-  return share_of(matrix, {asked.p - half * normal, q - half * normal, q + half * normal,
-                           asked.p + half * normal}) *
-         radius / half;
+  return {{asked.p - half * normal, q - half * normal, q + half * normal, asked.p + half * normal},
+          half};
+}
+double line(const Eigen::Matrix3d& matrix, const Case& asked, double radius) {
+  const Strip strip = strip_of(matrix, asked);
+  return share_of(matrix, strip.vertices) * radius / strip.half;
 }
 
 // As docs/shading.md has the approximation by a sphere of the same form factor.
@@ -219,8 +229,13 @@ double as_sphere(const Eigen::Matrix3d& matrix, const Case& asked) {
   return clamped_cosine_share({cosine * axis, sine * a, sine * b});
 }
 
+constexpr double light_radius = 0.2f;
+
+double uniform(double x) {
+  return std::abs(x) - std::floor(std::abs(x));
+}
+
 double light_of(const Eigen::Matrix3d& matrix, const Case& asked) {
-  constexpr double radius = 0.2f;
   switch (asked.light) {
     case LightKind::quad:
       return share_of(matrix, quad(asked));
@@ -229,14 +244,89 @@ double light_of(const Eigen::Matrix3d& matrix, const Case& asked) {
     case LightKind::ellipse:
       return ltc_share(matrix, Ellipse{asked.p, asked.a, asked.b});
     case LightKind::sphere:
-      return ltc_share(matrix, disk_of_sphere(asked.p, radius));
+      return ltc_share(matrix, disk_of_sphere(asked.p, light_radius));
     case LightKind::line:
-      return std::min(line(matrix, asked, radius), 1.0);
+      return std::min(line(matrix, asked, light_radius), 1.0);
     case LightKind::quad_as_sphere:
       return as_sphere(matrix, asked);
-    default:
+    case LightKind::density:
       return LinearlyTransformed(matrix).density(asked.p.normalized());
+    case LightKind::direction:
+      return LinearlyTransformed(matrix).sample(uniform(asked.b.x()), uniform(asked.b.y())).dot(
+          asked.a.normalized());
+    default:
+      return share_below_horizon(matrix);
   }
+}
+
+// The polygon of ltc_ellipse_folded; and of ltc_sphere_folded, whose disk it turns as Duff et al. do.
+std::vector<Eigen::Vector3d> corners_of(const Eigen::Vector3d& center, const Eigen::Vector3d& a,
+                                        const Eigen::Vector3d& b) {
+  const double turn = pi / 12, scale = std::sqrt(turn / std::sin(turn));
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 24; ++i)
+    corners.push_back(center + scale * (std::cos(turn * i) * a + std::sin(turn * i) * b));
+  return corners;
+}
+std::vector<Eigen::Vector3d> corners_of_sphere(const Eigen::Vector3d& center, double radius) {
+  const Ellipse disk = disk_of_sphere(center, radius);
+  const Eigen::Vector3d n = center.normalized();
+  const double side = n.z() < 0 ? -1 : 1, p = -1 / (side + n.z()), q = n.x() * n.y() * p;
+  return corners_of(
+      disk.center,
+      disk.half_u.norm() * Eigen::Vector3d(1 + side * n.x() * n.x() * p, side * q, -side * n.x()),
+      disk.half_u.norm() * Eigen::Vector3d(q, side + n.y() * n.y() * p, -n.y()));
+}
+
+double folded_light_of(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases,
+                       const Case& asked) {
+  const FoldedCosine lobe(matrix, fold, creases);
+  const auto share = [&](const std::vector<Eigen::Vector3d>& vertices) {
+    return std::abs(lobe.integrate_polygon(clip_to_upper_hemisphere(vertices)));
+  };
+  switch (asked.light) {
+    case LightKind::star:
+      return share(star(asked));
+    case LightKind::ellipse:
+      return share(corners_of(asked.p, asked.a, asked.b));
+    case LightKind::sphere:
+      return share(corners_of_sphere(asked.p, light_radius));
+    case LightKind::line: {
+      const Strip strip = strip_of(matrix, asked);
+      return std::min(share(strip.vertices) * light_radius / strip.half, 1.0);
+    }
+    case LightKind::density:
+      return lobe.density(asked.p.normalized());
+    case LightKind::direction:
+      return lobe.sample(uniform(asked.b.x()), uniform(asked.b.y())).dot(asked.a.normalized());
+    case LightKind::below_horizon:
+      return share_below_horizon(matrix, fold, creases);
+    default:
+      return share(quad(asked));
+  }
+}
+
+// Of a field's function, which goes on into the other quadrants: there k is of the other sign where
+// y is mirrored. Exchanged axes are exchanged rows.
+Expected expected_folded(const Table& table, const Case& asked) {
+  const bool swapped = asked.alpha_y > asked.alpha_x;
+  Case reduced = asked;
+  if (swapped) {
+    std::swap(reduced.view.x(), reduced.view.y());
+    std::swap(reduced.alpha_x, reduced.alpha_y);
+  }
+  const Eigen::Vector3d signs(reduced.view.x() < 0 ? -1 : 1, reduced.view.y() < 0 ? -1 : 1, 1);
+  reduced.view = reduced.view.cwiseAbs();
+  const LookUp found = of_folded(table, reduced);
+  Eigen::Matrix3d matrix = signs.asDiagonal() * found.matrix * signs.asDiagonal();
+  if (swapped) {
+    matrix.row(0).swap(matrix.row(1));
+    matrix.col(0) *= -1;
+  }
+  const Fold fold = {signs.y() * found.fold.k, found.fold.g};
+  return {matrix, found.amplitude, found.fresnel,
+          folded_light_of(matrix, fold, found.creases, asked),
+          {fold.k, fold.g, found.creases.front()}};
 }
 
 Eigen::Vector3d picture_of(const Eigen::Matrix3d& matrix, const Case& asked) {
@@ -264,9 +354,13 @@ Eigen::Vector3d picture_of(const Eigen::Matrix3d& matrix, const Case& asked) {
 
 }  // namespace
 
-Tables make_tables(const Grid& grid, Storage storage) {
+Tables make_tables(const Grid& grid, Storage storage, const Creases& creases) {
+  const auto of_field = [](const Field& field) {
+    return table_of_field(field, Grid::paper(2), Storage::matrix);
+  };
   return {without_field(grid, storage), without_field(engines_grid(), Storage::inverse),
-          table_of_field(ltc::testing::synthetic_field(), Grid::paper(2), Storage::matrix)};
+          of_field(ltc::testing::synthetic_field()),
+          of_field(ltc::testing::synthetic_folded_field(creases))};
 }
 
 std::vector<Case> make_cases(std::size_t count, std::uint64_t seed) {
@@ -349,6 +443,8 @@ Job make_job(const Tables& tables, const std::vector<Case>& cases) {
 }
 
 Expected expected(const Tables& tables, const Case& asked) {
+  if (asked.look_up == LookUpKind::folded_field)
+    return expected_folded(tables.folded_field, asked);
   const Table& table = asked.look_up == LookUpKind::isotropic ? tables.isotropic
                        : asked.look_up == LookUpKind::field   ? tables.field
                                                               : tables.table;
@@ -358,7 +454,7 @@ Expected expected(const Tables& tables, const Case& asked) {
   result.amplitude = found.amplitude;
   result.fresnel = found.fresnel;
   result.share = light_of(result.matrix, asked);
-  result.picture = picture_of(result.matrix, asked);
+  result.seen = picture_of(result.matrix, asked);
   return result;
 }
 

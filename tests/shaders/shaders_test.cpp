@@ -69,7 +69,7 @@ class Comparison {
     // Texture units have weights of 8 bits and more: the nodes of these tables are some tenths
     // apart. Isotropic ones are 64 to an axis. At the last node of the warp complement-sqrt, whose
     // slope is infinite there, the rounding of theta itself is worth some 1e-4.
-    const bool of_nodes = c.look_up != LookUpKind::field;
+    const bool of_nodes = c.look_up != LookUpKind::field && c.look_up != LookUpKind::folded_field;
     const double tolerance = filtered                             ? 5e-3
                              : c.look_up == LookUpKind::isotropic ? 1e-4
                              : of_nodes && c.view.z() < 1e-3      ? 3e-4
@@ -88,13 +88,18 @@ class Comparison {
                 1e-5 * std::max(1.0, w.row(row).norm() * m.col(column).norm()));
     if (filtered || c.look_up == LookUpKind::isotropic)
       return;
-    // A density is as large as the lobe is small.
-    const double scale = c.light == LightKind::density ? std::max(1.0, e.share) : 1;
+    // A density is as large as the lobe is small; a sample is by the driver's own sine.
+    const double scale = c.light == LightKind::density     ? std::max(1.0, e.share)
+                         : c.light == LightKind::direction ? 10
+                                                           : 1;
     require(i, "a light's share", std::abs(at(i, 2, 3) - e.share), 1e-4 * scale);
+    const bool folded = c.look_up == LookUpKind::folded_field;
     for (int axis = 0; axis < 3; ++axis)
-      require(i, "a picture's place or level", std::abs(at(i, 3 + axis, 3) - e.picture(axis)),
-              // Weights of 8 bits between texels, and between levels.
-              axis < 2 ? 2e-3 : 5e-3);
+      require(i, folded ? "k, g or h" : "a picture's place or level",
+              std::abs(at(i, 3 + axis, 3) - e.seen(axis)),
+              folded ? 1e-5 * std::max(1.0, std::abs(e.seen(axis)))
+                     // Weights of 8 bits between texels, and between levels.
+                     : axis < 2 ? 2e-3 : 5e-3);
   }
 
   const std::vector<Case>& cases_;
