@@ -28,11 +28,14 @@ LtcFoldedLobe ltc_folded_lobe_of(LtcLobe lobe, float3 fold) {
 // By how much the fold is undone beyond a crease.
 float ltc_unfolding(LtcFoldedLobe folded) { return 1.0 / (1.0 - folded.g * folded.h); }
 
-// A direction to the space of the cosine, and from there to that of the lobe.
-float3 ltc_to_cosine_folded(LtcFoldedLobe folded, float3 omega) {
-  float3 p = ltc_to_cosine(folded.lobe, omega);
+float3 ltc_unfolded(LtcFoldedLobe folded, float3 p) {
   float u = max(abs(p.x) - folded.h * p.z, 0.0) * ltc_unfolding(folded);
   return float3(p.x, p.y - folded.k * u, p.z - folded.g * u);
+}
+
+// A direction to the space of the cosine, and from there to that of the lobe.
+float3 ltc_to_cosine_folded(LtcFoldedLobe folded, float3 omega) {
+  return ltc_unfolded(folded, ltc_to_cosine(folded.lobe, omega));
 }
 float3 ltc_from_cosine_folded(LtcFoldedLobe folded, float3 p) {
   float u = max(abs(p.x) - folded.h * p.z, 0.0);
@@ -42,7 +45,7 @@ float3 ltc_from_cosine_folded(LtcFoldedLobe folded, float3 p) {
 // As ltc_density and ltc_direction.
 float ltc_density_folded(LtcFoldedLobe folded, float3 omega) {
   float3 p = ltc_to_cosine(folded.lobe, omega);
-  float3 cosine = ltc_to_cosine_folded(folded, omega);
+  float3 cosine = ltc_unfolded(folded, p);
   float squared = dot(cosine, cosine);
   float determinant = dot(folded.lobe.w0, cross(folded.lobe.w1, folded.lobe.w2));
   if (abs(p.x) > folded.h * p.z) {
@@ -85,7 +88,7 @@ LtcFoldedPoint ltc_folded_vertex(LtcFoldedLobe folded, float3 vertex) {
 
 // Of what is linear along an edge and of other signs at its ends: where it is 0.
 float3 ltc_between(float3 a, float3 b, float at_a, float at_b) {
-  return (abs(at_b) * a + abs(at_a) * b) / (abs(at_a) + abs(at_b));
+  return a + abs(at_a) / (abs(at_a) + abs(at_b)) * (b - a);
 }
 
 // What an edge on one side of x = 0 has beyond the crease, and the azimuth where it meets the
@@ -295,27 +298,97 @@ float ltc_outline_share_folded(LtcFoldedOutline before, LtcFoldedLobe folded) {
   return min(abs(outline.sum), 1.0);
 }
 
+// What is seen of an edge, `at` being where it meets the surface's horizon if it does.
+float ltc_folded_seen_edge(LtcFoldedLobe folded, LtcFoldedPoint a, LtcFoldedPoint at,
+    LtcFoldedPoint b) {
+  if (a.surface < 0.0 && b.surface < 0.0) {
+    return 0.0;
+  }
+  LtcFoldedPoint start = a;
+  LtcFoldedPoint end = b;
+  if (a.surface < 0.0) {
+    start = at;
+  }
+  if (b.surface < 0.0) {
+    end = at;
+  }
+  return ltc_folded_edge(folded, start, end);
+}
+
+// A quad whatever cuts it.
+float ltc_folded_cut_quad(LtcFoldedLobe folded, LtcFoldedPoint a, LtcFoldedPoint b,
+    LtcFoldedPoint c, LtcFoldedPoint d) {
+  LtcFoldedPoint ab = ltc_folded_at_surface(folded, a, b);
+  LtcFoldedPoint bc = ltc_folded_at_surface(folded, b, c);
+  LtcFoldedPoint cd = ltc_folded_at_surface(folded, c, d);
+  LtcFoldedPoint da = ltc_folded_at_surface(folded, d, a);
+  float sum = ltc_folded_seen_edge(folded, a, ab, b) + ltc_folded_seen_edge(folded, b, bc, c) +
+              ltc_folded_seen_edge(folded, c, cd, d) + ltc_folded_seen_edge(folded, d, da, a);
+  bool above_a = a.surface >= 0.0;
+  bool above_b = b.surface >= 0.0;
+  bool above_c = c.surface >= 0.0;
+  bool above_d = d.surface >= 0.0;
+  if (above_a && above_b && above_c && above_d) {
+    return sum;
+  }
+  // What closes it along the surface's horizon: from where it goes below to where it comes up.
+  LtcFoldedPoint left = da;
+  LtcFoldedPoint entered = ab;
+  if (above_c && !above_d) {
+    left = cd;
+  }
+  if (above_b && !above_c) {
+    left = bc;
+  }
+  if (above_a && !above_b) {
+    left = ab;
+  }
+  if (!above_d && above_a) {
+    entered = da;
+  }
+  if (!above_c && above_d) {
+    entered = cd;
+  }
+  if (!above_b && above_c) {
+    entered = bc;
+  }
+  sum += ltc_folded_edge(folded, left, entered);
+  // A bent one may do so twice.
+  if (above_a == above_c && above_b == above_d && above_a != above_b) {
+    if (above_a) {
+      left = cd;
+      entered = da;
+    } else {
+      left = da;
+      entered = ab;
+    }
+    sum += ltc_folded_edge(folded, left, entered);
+  }
+  return sum;
+}
+
 float ltc_least(float4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
 // Four vertices in order; nothing is cut where all of it is above both horizons and on one piece of
 // the fold.
 float ltc_quad_folded(LtcFoldedLobe folded, float3 p0, float3 p1, float3 p2, float3 p3) {
-  float3 a = ltc_to_cosine(folded.lobe, p0);
-  float3 b = ltc_to_cosine(folded.lobe, p1);
-  float3 c = ltc_to_cosine(folded.lobe, p2);
-  float3 d = ltc_to_cosine(folded.lobe, p3);
-  float4 x = float4(a.x, b.x, c.x, d.x);
-  float4 z = float4(a.z, b.z, c.z, d.z);
+  LtcFoldedPoint a = ltc_folded_vertex(folded, p0);
+  LtcFoldedPoint b = ltc_folded_vertex(folded, p1);
+  LtcFoldedPoint c = ltc_folded_vertex(folded, p2);
+  LtcFoldedPoint d = ltc_folded_vertex(folded, p3);
+  float4 x = float4(a.p.x, b.p.x, c.p.x, d.p.x);
+  float4 z = float4(a.p.z, b.p.z, c.p.z, d.p.z);
   float4 surface = float4(p0.z, p1.z, p2.z, p3.z);
-  float4 beyond_right = x - folded.h * z;
-  float4 beyond_left = -x - folded.h * z;
-  bool one_piece = ltc_least(beyond_right) >= 0.0 || ltc_least(beyond_left) >= 0.0 ||
-                   ltc_least(-max(beyond_right, beyond_left)) >= 0.0;
-  if (one_piece && ltc_least(min(z - folded.g * abs(x), surface)) >= 0.0) {
-    float3 e = normalize(ltc_to_cosine_folded(folded, p0));
-    float3 f = normalize(ltc_to_cosine_folded(folded, p1));
-    float3 g = normalize(ltc_to_cosine_folded(folded, p2));
-    float3 h = normalize(ltc_to_cosine_folded(folded, p3));
+  float4 height = float4(a.height, b.height, c.height, d.height);
+  float4 right = x - folded.h * z;
+  float4 left = -x - folded.h * z;
+  bool one_piece = max(ltc_least(right), ltc_least(left)) >= 0.0 || ltc_least(-max(right,
+      left)) >= 0.0;
+  if (one_piece && ltc_least(min(height, surface)) >= 0.0) {
+    float3 e = ltc_unfolded(folded, a.p);
+    float3 f = ltc_unfolded(folded, b.p);
+    float3 g = ltc_unfolded(folded, c.p);
+    float3 h = ltc_unfolded(folded, d.p);
     float sum = ltc_edge(e, f) + ltc_edge(f, g) + ltc_edge(g, h) + ltc_edge(h, e);
     return min(abs(sum), 1.0);
   }
@@ -323,10 +396,5 @@ float ltc_quad_folded(LtcFoldedLobe folded, float3 p0, float3 p1, float3 p2, flo
   if (ltc_least(-surface) >= 0.0 || ltc_least(min(folded.g, 0.0) * abs(x) - z) >= 0.0) {
     return 0.0;
   }
-  LtcFoldedOutline outline = ltc_outline_begin_folded();
-  outline = ltc_outline_add_folded(outline, folded, p0);
-  outline = ltc_outline_add_folded(outline, folded, p1);
-  outline = ltc_outline_add_folded(outline, folded, p2);
-  outline = ltc_outline_add_folded(outline, folded, p3);
-  return ltc_outline_share_folded(outline, folded);
+  return min(abs(ltc_folded_cut_quad(folded, a, b, c, d)), 1.0);
 }

@@ -28,11 +28,14 @@ fn ltc_folded_lobe_of(lobe: LtcLobe, fold: vec3<f32>) -> LtcFoldedLobe {
 // By how much the fold is undone beyond a crease.
 fn ltc_unfolding(folded: LtcFoldedLobe) -> f32 { return 1.0 / (1.0 - folded.g * folded.h); }
 
-// A direction to the space of the cosine, and from there to that of the lobe.
-fn ltc_to_cosine_folded(folded: LtcFoldedLobe, omega: vec3<f32>) -> vec3<f32> {
-  var p: vec3<f32> = ltc_to_cosine(folded.lobe, omega);
+fn ltc_unfolded(folded: LtcFoldedLobe, p: vec3<f32>) -> vec3<f32> {
   var u: f32 = max(abs(p.x) - folded.h * p.z, 0.0) * ltc_unfolding(folded);
   return vec3<f32>(p.x, p.y - folded.k * u, p.z - folded.g * u);
+}
+
+// A direction to the space of the cosine, and from there to that of the lobe.
+fn ltc_to_cosine_folded(folded: LtcFoldedLobe, omega: vec3<f32>) -> vec3<f32> {
+  return ltc_unfolded(folded, ltc_to_cosine(folded.lobe, omega));
 }
 fn ltc_from_cosine_folded(folded: LtcFoldedLobe, p: vec3<f32>) -> vec3<f32> {
   var u: f32 = max(abs(p.x) - folded.h * p.z, 0.0);
@@ -42,7 +45,7 @@ fn ltc_from_cosine_folded(folded: LtcFoldedLobe, p: vec3<f32>) -> vec3<f32> {
 // As ltc_density and ltc_direction.
 fn ltc_density_folded(folded: LtcFoldedLobe, omega: vec3<f32>) -> f32 {
   var p: vec3<f32> = ltc_to_cosine(folded.lobe, omega);
-  var cosine: vec3<f32> = ltc_to_cosine_folded(folded, omega);
+  var cosine: vec3<f32> = ltc_unfolded(folded, p);
   var squared: f32 = dot(cosine, cosine);
   var determinant: f32 = dot(folded.lobe.w0, cross(folded.lobe.w1, folded.lobe.w2));
   if (abs(p.x) > folded.h * p.z) {
@@ -85,7 +88,7 @@ fn ltc_folded_vertex(folded: LtcFoldedLobe, vertex: vec3<f32>) -> LtcFoldedPoint
 
 // Of what is linear along an edge and of other signs at its ends: where it is 0.
 fn ltc_between(a: vec3<f32>, b: vec3<f32>, at_a: f32, at_b: f32) -> vec3<f32> {
-  return (abs(at_b) * a + abs(at_a) * b) / (abs(at_a) + abs(at_b));
+  return a + abs(at_a) / (abs(at_a) + abs(at_b)) * (b - a);
 }
 
 // What an edge on one side of x = 0 has beyond the crease, and the azimuth where it meets the
@@ -298,28 +301,98 @@ fn ltc_outline_share_folded(before: LtcFoldedOutline, folded: LtcFoldedLobe) -> 
   return min(abs(outline.sum), 1.0);
 }
 
+// What is seen of an edge, `at` being where it meets the surface's horizon if it does.
+fn ltc_folded_seen_edge(folded: LtcFoldedLobe, a: LtcFoldedPoint, at: LtcFoldedPoint,
+    b: LtcFoldedPoint) -> f32 {
+  if (a.surface < 0.0 && b.surface < 0.0) {
+    return 0.0;
+  }
+  var start: LtcFoldedPoint = a;
+  var end: LtcFoldedPoint = b;
+  if (a.surface < 0.0) {
+    start = at;
+  }
+  if (b.surface < 0.0) {
+    end = at;
+  }
+  return ltc_folded_edge(folded, start, end);
+}
+
+// A quad whatever cuts it.
+fn ltc_folded_cut_quad(folded: LtcFoldedLobe, a: LtcFoldedPoint, b: LtcFoldedPoint,
+    c: LtcFoldedPoint, d: LtcFoldedPoint) -> f32 {
+  var ab: LtcFoldedPoint = ltc_folded_at_surface(folded, a, b);
+  var bc: LtcFoldedPoint = ltc_folded_at_surface(folded, b, c);
+  var cd: LtcFoldedPoint = ltc_folded_at_surface(folded, c, d);
+  var da: LtcFoldedPoint = ltc_folded_at_surface(folded, d, a);
+  var sum: f32 = ltc_folded_seen_edge(folded, a, ab, b) + ltc_folded_seen_edge(folded, b, bc, c) +
+              ltc_folded_seen_edge(folded, c, cd, d) + ltc_folded_seen_edge(folded, d, da, a);
+  var above_a: bool = a.surface >= 0.0;
+  var above_b: bool = b.surface >= 0.0;
+  var above_c: bool = c.surface >= 0.0;
+  var above_d: bool = d.surface >= 0.0;
+  if (above_a && above_b && above_c && above_d) {
+    return sum;
+  }
+  // What closes it along the surface's horizon: from where it goes below to where it comes up.
+  var left: LtcFoldedPoint = da;
+  var entered: LtcFoldedPoint = ab;
+  if (above_c && !above_d) {
+    left = cd;
+  }
+  if (above_b && !above_c) {
+    left = bc;
+  }
+  if (above_a && !above_b) {
+    left = ab;
+  }
+  if (!above_d && above_a) {
+    entered = da;
+  }
+  if (!above_c && above_d) {
+    entered = cd;
+  }
+  if (!above_b && above_c) {
+    entered = bc;
+  }
+  sum += ltc_folded_edge(folded, left, entered);
+  // A bent one may do so twice.
+  if (above_a == above_c && above_b == above_d && above_a != above_b) {
+    if (above_a) {
+      left = cd;
+      entered = da;
+    } else {
+      left = da;
+      entered = ab;
+    }
+    sum += ltc_folded_edge(folded, left, entered);
+  }
+  return sum;
+}
+
 fn ltc_least(v: vec4<f32>) -> f32 { return min(min(v.x, v.y), min(v.z, v.w)); }
 
 // Four vertices in order; nothing is cut where all of it is above both horizons and on one piece of
 // the fold.
 fn ltc_quad_folded(folded: LtcFoldedLobe, p0: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>,
     p3: vec3<f32>) -> f32 {
-  var a: vec3<f32> = ltc_to_cosine(folded.lobe, p0);
-  var b: vec3<f32> = ltc_to_cosine(folded.lobe, p1);
-  var c: vec3<f32> = ltc_to_cosine(folded.lobe, p2);
-  var d: vec3<f32> = ltc_to_cosine(folded.lobe, p3);
-  var x: vec4<f32> = vec4<f32>(a.x, b.x, c.x, d.x);
-  var z: vec4<f32> = vec4<f32>(a.z, b.z, c.z, d.z);
+  var a: LtcFoldedPoint = ltc_folded_vertex(folded, p0);
+  var b: LtcFoldedPoint = ltc_folded_vertex(folded, p1);
+  var c: LtcFoldedPoint = ltc_folded_vertex(folded, p2);
+  var d: LtcFoldedPoint = ltc_folded_vertex(folded, p3);
+  var x: vec4<f32> = vec4<f32>(a.p.x, b.p.x, c.p.x, d.p.x);
+  var z: vec4<f32> = vec4<f32>(a.p.z, b.p.z, c.p.z, d.p.z);
   var surface: vec4<f32> = vec4<f32>(p0.z, p1.z, p2.z, p3.z);
-  var beyond_right: vec4<f32> = x - folded.h * z;
-  var beyond_left: vec4<f32> = -x - folded.h * z;
-  var one_piece: bool = ltc_least(beyond_right) >= 0.0 || ltc_least(beyond_left) >= 0.0 ||
-                   ltc_least(-max(beyond_right, beyond_left)) >= 0.0;
-  if (one_piece && ltc_least(min(z - folded.g * abs(x), surface)) >= 0.0) {
-    var e: vec3<f32> = normalize(ltc_to_cosine_folded(folded, p0));
-    var f: vec3<f32> = normalize(ltc_to_cosine_folded(folded, p1));
-    var g: vec3<f32> = normalize(ltc_to_cosine_folded(folded, p2));
-    var h: vec3<f32> = normalize(ltc_to_cosine_folded(folded, p3));
+  var height: vec4<f32> = vec4<f32>(a.height, b.height, c.height, d.height);
+  var right: vec4<f32> = x - folded.h * z;
+  var left: vec4<f32> = -x - folded.h * z;
+  var one_piece: bool = max(ltc_least(right), ltc_least(left)) >= 0.0 || ltc_least(-max(right,
+      left)) >= 0.0;
+  if (one_piece && ltc_least(min(height, surface)) >= 0.0) {
+    var e: vec3<f32> = ltc_unfolded(folded, a.p);
+    var f: vec3<f32> = ltc_unfolded(folded, b.p);
+    var g: vec3<f32> = ltc_unfolded(folded, c.p);
+    var h: vec3<f32> = ltc_unfolded(folded, d.p);
     var sum: f32 = ltc_edge(e, f) + ltc_edge(f, g) + ltc_edge(g, h) + ltc_edge(h, e);
     return min(abs(sum), 1.0);
   }
@@ -327,10 +400,5 @@ fn ltc_quad_folded(folded: LtcFoldedLobe, p0: vec3<f32>, p1: vec3<f32>, p2: vec3
   if (ltc_least(-surface) >= 0.0 || ltc_least(min(folded.g, 0.0) * abs(x) - z) >= 0.0) {
     return 0.0;
   }
-  var outline: LtcFoldedOutline = ltc_outline_begin_folded();
-  outline = ltc_outline_add_folded(outline, folded, p0);
-  outline = ltc_outline_add_folded(outline, folded, p1);
-  outline = ltc_outline_add_folded(outline, folded, p2);
-  outline = ltc_outline_add_folded(outline, folded, p3);
-  return ltc_outline_share_folded(outline, folded);
+  return min(abs(ltc_folded_cut_quad(folded, a, b, c, d)), 1.0);
 }

@@ -28,7 +28,7 @@ std::string written_endings() {
 }
 
 void convert(const Arguments& arguments, Files& files) {
-  const Table table = read_input(arguments.input, arguments.layout);
+  const Table table = read_input(arguments.input, arguments.layout, FoldedFields::taken);
   const NamedSet output = set_to_write(arguments.output, table.field || arguments.functions);
   if (!output.format)
     throw InputError(fmt::format("-o {}: no suffix of a table; expected {}",

@@ -3,7 +3,6 @@
 #include "export/field_code.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -235,9 +234,9 @@ void write_parts(Writer& writer, const Field& field) {
   }
 }
 
-// Equation (14) the other way: where axes were exchanged, rows and columns are, for a cosine does not
-// feel what its columns are turned by. A fold does: there the rows alone are exchanged, and the first
-// column is negated, which nothing feels, so that the determinant stays positive.
+// Equation (14) the other way: where axes were exchanged, rows and columns are, for a cosine does
+// not feel what its columns are turned by. A fold does: there the rows alone are exchanged, and the
+// first column is negated, which nothing feels, so that the determinant stays positive.
 void write_unswapped(Writer& writer, bool folded) {
   const auto name = [](int row, int column) {
     return row == 2 ? fmt::format("m2{}_", column) : fmt::format("n{}{}", row, column);
@@ -312,8 +311,8 @@ void write_matrix(Writer& writer, bool folded) {
 void write_fold(Writer& writer, const Field& field) {
   const auto most = static_cast<float>(most_fold(field.creases));
   writer.constant("fold_k", "alpha * alpha * f_kappa / beta_s");
-  writer.constant("fold_g", std::isfinite(most) ? writer.smaller("f_gamma", writer.number(most))
-                                                : "f_gamma");
+  writer.constant("fold_g",
+                  std::isfinite(most) ? writer.smaller("f_gamma", writer.number(most)) : "f_gamma");
   writer.constant("fold_h", writer.number(static_cast<float>(field.creases.front())));
 }
 
@@ -416,15 +415,7 @@ std::size_t field_multiplications(const Field& field) {
   return static_cast<std::size_t>(std::ranges::count(text, '*'));
 }
 
-void require_one_pair(const Creases& creases) {
-  if (creases.size() > 1)
-    throw InputError(fmt::format(
-        "a folded field with creases at h = {}: functions have one pair of creases at most",
-        fmt::join(creases, ", ")));
-}
-
 std::string field_function(const Field& field, CodeLanguage language) {
-  require_one_pair(field.creases);
   const std::string body = field_statements(field, language);
   const std::string what =
       std::string(field.creases.empty() ? what_it_is : what_a_folded_one_is) + material_text(field);

@@ -54,6 +54,7 @@ struct Format {
   bool of_fields = false;     // whether it holds fields alone
   bool of_materials = false;  // whether it holds fields of one material
   bool of_folded = false;     // whether it holds folded fields; the others know of no fold
+  bool of_one_pair = false;   // and of these only those with one pair of creases
   bool without_axes = false;  // whether a reader is to be told the layout of the grid
   // Whether others use such names for files of their own, so that none is removed as an older one
   // of the set.
@@ -88,6 +89,7 @@ struct Format {
   }
   bool is_written(const Config& config) const {
     return is_asked(config) && (of_folded || !config.field.folded) &&
+           !(of_one_pair && config.field.folded && config.field.second_crease > 0) &&
            why_not(config.grid, config.storage, config.output.layout).empty();
   }
 };

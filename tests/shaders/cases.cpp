@@ -60,9 +60,8 @@ std::string library(const std::string& language, CodeLanguage code, const Tables
                      table_constant(tables.table.grid, tables.table.storage, code);
   text += field_function(*tables.field.field, code);
   text += field_function(*tables.folded_field.field, code);
-  for (const char* const name :
-       {"field", "isotropic", "polygon", "disk", "line", "texture", "folded", "folded_lights",
-        "folded_field"})
+  for (const char* const name : {"field", "isotropic", "polygon", "disk", "line", "texture",
+                                 "folded", "folded_lights", "folded_field"})
     text += text_of(language, name);
   return text;
 }
@@ -252,14 +251,16 @@ double light_of(const Eigen::Matrix3d& matrix, const Case& asked) {
     case LightKind::density:
       return LinearlyTransformed(matrix).density(asked.p.normalized());
     case LightKind::direction:
-      return LinearlyTransformed(matrix).sample(uniform(asked.b.x()), uniform(asked.b.y())).dot(
-          asked.a.normalized());
+      return LinearlyTransformed(matrix)
+          .sample(uniform(asked.b.x()), uniform(asked.b.y()))
+          .dot(asked.a.normalized());
     default:
       return share_below_horizon(matrix);
   }
 }
 
-// The polygon of ltc_ellipse_folded; and of ltc_sphere_folded, whose disk it turns as Duff et al. do.
+// The polygon of ltc_ellipse_folded; and of ltc_sphere_folded, whose disk it turns as Duff et al.
+// do.
 std::vector<Eigen::Vector3d> corners_of(const Eigen::Vector3d& center, const Eigen::Vector3d& a,
                                         const Eigen::Vector3d& b) {
   const double turn = pi / 12, scale = std::sqrt(turn / std::sin(turn));
@@ -324,7 +325,9 @@ Expected expected_folded(const Table& table, const Case& asked) {
     matrix.col(0) *= -1;
   }
   const Fold fold = {signs.y() * found.fold.k, found.fold.g};
-  return {matrix, found.amplitude, found.fresnel,
+  return {matrix,
+          found.amplitude,
+          found.fresnel,
           folded_light_of(matrix, fold, found.creases, asked),
           {fold.k, fold.g, found.creases.front()}};
 }

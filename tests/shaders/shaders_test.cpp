@@ -98,8 +98,9 @@ class Comparison {
       require(i, folded ? "k, g or h" : "a picture's place or level",
               std::abs(at(i, 3 + axis, 3) - e.seen(axis)),
               folded ? 1e-5 * std::max(1.0, std::abs(e.seen(axis)))
-                     // Weights of 8 bits between texels, and between levels.
-                     : axis < 2 ? 2e-3 : 5e-3);
+              // Weights of 8 bits between texels, and between levels.
+              : axis < 2 ? 2e-3
+                         : 5e-3);
   }
 
   const std::vector<Case>& cases_;
