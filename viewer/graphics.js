@@ -6,7 +6,8 @@ const VERTEX_SHADER = `#version 300 es
 void main() {
   gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0, 1);
 }`;
-const LIBRARY = ['ltc_lobe', 'ltc_polygon', 'ltc_disk', 'ltc_line', 'ltc_table', 'ltc_texture'];
+const LIBRARY = ['ltc_lobe', 'ltc_polygon', 'ltc_disk', 'ltc_line', 'ltc_table', 'ltc_texture',
+                 'ltc_folded', 'ltc_folded_lights'];
 // What each program is made of; `table` programs also of a table's look-up.
 const PROGRAMS = {
   table: [...LIBRARY, 'scene', 'table', 'table_main'],
@@ -137,7 +138,8 @@ class Graphics {
                   'precision highp sampler2D;', 'precision highp sampler3D;',
                   `const int SHAPE = ${SHAPES.indexOf(state.shape)};`,
                   `const int LIGHT = ${LIGHTS.indexOf(state.light)};`,
-                  `#define FIELD ${table.field ? 1 : 0}`, `#define EXACT ${exact ? 1 : 0}`,
+                  `#define FIELD ${table.field ? 1 : 0}`,
+                  `#define FOLDED ${table.folded ? 1 : 0}`, `#define EXACT ${exact ? 1 : 0}`,
                   `#define BOTH_ALPHAS ${table.both_alphas ? 1 : 0}`];
     if (OF_TABLES.includes(kind) && table.field) {
       text.push(table.field);

@@ -30,9 +30,10 @@ constexpr std::string_view scripts[] = {"maths.js",    "state.js",    "data.js",
                                         "lights.js",   "graphics.js", "stage.js",
                                         "controls.js", "probe.js",    "main.js"};
 constexpr std::string_view shaders[] = {
-    "ltc_lobe.glsl",    "ltc_polygon.glsl", "ltc_disk.glsl",   "ltc_line.glsl", "ltc_table.glsl",
-    "ltc_texture.glsl", "scene.glsl",       "table.glsl",      "ggx.glsl",      "table_main.glsl",
-    "ggx_main.glsl",    "present.glsl",     "probe_main.glsl", "lobe_main.glsl"};
+    "ltc_lobe.glsl",  "ltc_polygon.glsl", "ltc_disk.glsl",   "ltc_line.glsl",
+    "ltc_table.glsl", "ltc_texture.glsl", "ltc_folded.glsl", "ltc_folded_lights.glsl",
+    "scene.glsl",     "table.glsl",       "ggx.glsl",        "table_main.glsl",
+    "ggx_main.glsl",  "present.glsl",     "probe_main.glsl", "lobe_main.glsl"};
 
 // FNV-1a of 32 bits: tells a page that was cut or altered on its way.
 std::uint32_t checksum(std::string_view text) {
@@ -94,6 +95,7 @@ Json description(const ViewedTable& viewed) {
   json["alpha_min"] = table.grid.alpha_min;
   json["both_alphas"] = table.grid.layout == Layout::alphax_alphay;
   json["missing"] = std::ranges::count_if(table.status, [](Status s) { return !has_values(s); });
+  json["folded"] = is_folded(table);
   if (!table.field)
     return json;
   json["field"] = field_function(*table.field, CodeLanguage::glsl);
@@ -141,6 +143,10 @@ void require_viewable(std::span<const ViewedTable> tables) {
     if (const LobeModel& model = *viewed.table->grid.model; &model != &ggx())
       throw InputError(fmt::format("{}: a table of the BRDF {}; expected one of ggx", viewed.name,
                                    model.name()));
+  for (const ViewedTable& viewed : tables)
+    if (is_folded(*viewed.table) && viewed.table->field->creases.size() > 1)
+      throw InputError(fmt::format("{}: folded lobes with {} pairs of creases; expected one pair",
+                                   viewed.name, viewed.table->field->creases.size()));
 }
 
 std::string script() {
