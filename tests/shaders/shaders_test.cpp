@@ -32,6 +32,9 @@ class Comparison {
   }
 
   void with(const Tables& tables) {
+    // Over alpha_y, which no lobe follows to 0, a node at lambda = 0 is hundreds of times its
+    // neighbours, and so is the rounding of its weight.
+    of_storage_ = tables.table.storage == Storage::roughness_scaled ? 3 : 1;
     for (std::size_t i = 0; i < results_.size(); ++i)
       compare(i, expected(tables, cases_[i]));
   }
@@ -77,7 +80,7 @@ class Comparison {
                                                                   : 1e-5;
     for (int column = 0; column < 3; ++column)
       require(i, "a column of M", (m.col(column) - e.matrix.col(column)).norm(),
-              tolerance * e.matrix.col(column).norm());
+              of_storage_ * tolerance * e.matrix.col(column).norm());
     require(i, "amplitude", std::abs(at(i, 0, 3) - e.amplitude), tolerance);
     require(i, "Fresnel term", std::abs(at(i, 1, 3) - e.fresnel), tolerance);
     // W against the M beside it: rows that M's columns are upright on.
@@ -105,6 +108,7 @@ class Comparison {
 
   const std::vector<Case>& cases_;
   std::vector<const float*> results_;
+  double of_storage_ = 1;
 };
 
 struct Driver {
@@ -162,16 +166,28 @@ TEST_P(Shaders, AgreeWithTheLibrary) {
   EXPECT_EQ(faults, 0u) << text;
 }
 
-// A number that is 2 % off: one of each file on OpenGL ES, one on every other driver.
+// A number that is 2 % off: one of each file on OpenGL ES, two on every other driver.
 TEST_P(Shaders, APlantedErrorIsNoticed) {
   const Tables tables = make_tables(warped_grid(), Storage::mirror_frame);
   const std::vector<Case> cases = make_cases(800, 2);
   const Job sound = make_job(tables, cases);
-  std::vector<std::string> all = {"dot(lobe.w2, p)"};
+  std::vector<std::string> all = {"dot(lobe.w2, p)", "folded.k * unfolding"};
   if (GetParam().name == std::string("OpenGLES"))
-    all = {"dot(lobe.w2, p)",     "0.5 / LTC_PI * normal.z", "1.0 / (1.0 + v.z)",
-           "1.0 - sqrt(1.0 - x)", "radius / LTC_PI * sum",   "-mu * slope",
-           "0.75 * place"};
+    all = {"dot(lobe.w2, p)",
+           "0.5 / LTC_PI * normal.z",
+           "1.0 / (1.0 + v.z)",
+           "1.0 - sqrt(1.0 - x)",
+           "radius / LTC_PI * sum",
+           "-mu * slope",
+           "0.75 * place",
+           "folded.k * unfolding",
+           "unfolding * height_a",
+           "ltc_angle(abs(horizon.y), horizon.x)",
+           "0.5 * side",
+           "abs(p.x) - folded.h * p.z",
+           "1.0057411",
+           "folded.k * lobe.m0.y",
+           "alpha * alpha * f_kappa"};
   for (const std::string& planted : all) {
     Job job = sound;
     std::string& source = job.*GetParam().source;
@@ -187,6 +203,26 @@ TEST_P(Shaders, APlantedErrorIsNoticed) {
 
 INSTANTIATE_TEST_SUITE_P(On, Shaders, ::testing::ValuesIn(drivers),
                          [](const auto& tested) { return tested.param.name; });
+
+// On one driver: folded along x = 0, and where creases are far out.
+TEST(ShaderFolds, OfOtherCreasesAgree) {
+  std::vector<Case> cases = make_cases(3'000, 4);
+  for (Case& one : cases)
+    one.look_up = LookUpKind::folded_field;
+  for (const double crease : {0.0, 1.5}) {
+    SCOPED_TRACE(crease);
+    const Tables tables = make_tables(Grid::paper(2), Storage::matrix, {crease});
+    Results results;
+    try {
+      results = run_gl(make_job(tables, cases), GlApi::es);
+    } catch (const Missing& missing) {
+      GTEST_SKIP() << missing.what();
+    }
+    Comparison comparison(cases, results);
+    comparison.with(tables);
+    EXPECT_EQ(comparison.faults, 0u) << comparison.text;
+  }
+}
 
 // On one driver, for all storages and axes.
 TEST(ShaderTables, OfAllStoragesAgree) {
