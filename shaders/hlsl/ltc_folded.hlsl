@@ -328,9 +328,6 @@ float ltc_folded_cut_quad(LtcFoldedLobe folded, LtcFoldedPoint a, LtcFoldedPoint
   bool above_b = b.surface >= 0.0;
   bool above_c = c.surface >= 0.0;
   bool above_d = d.surface >= 0.0;
-  if (above_a && above_b && above_c && above_d) {
-    return sum;
-  }
   // What closes it along the surface's horizon: from where it goes below to where it comes up.
   LtcFoldedPoint left = da;
   LtcFoldedPoint entered = ab;
@@ -352,13 +349,19 @@ float ltc_folded_cut_quad(LtcFoldedLobe folded, LtcFoldedPoint a, LtcFoldedPoint
   if (!above_b && above_c) {
     entered = bc;
   }
-  sum += ltc_folded_edge(folded, left, entered);
   // A bent one may do so twice.
-  if (above_a == above_c && above_b == above_d && above_a != above_b) {
-    if (above_a) {
+  int count = 1;
+  if (above_a == above_c && above_b == above_d) {
+    count = 2;
+    if (above_a == above_b) {
+      count = 0;
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    if (i == 1 && above_a) {
       left = cd;
       entered = da;
-    } else {
+    } else if (i == 1) {
       left = da;
       entered = ab;
     }

@@ -331,9 +331,6 @@ fn ltc_folded_cut_quad(folded: LtcFoldedLobe, a: LtcFoldedPoint, b: LtcFoldedPoi
   var above_b: bool = b.surface >= 0.0;
   var above_c: bool = c.surface >= 0.0;
   var above_d: bool = d.surface >= 0.0;
-  if (above_a && above_b && above_c && above_d) {
-    return sum;
-  }
   // What closes it along the surface's horizon: from where it goes below to where it comes up.
   var left: LtcFoldedPoint = da;
   var entered: LtcFoldedPoint = ab;
@@ -355,13 +352,19 @@ fn ltc_folded_cut_quad(folded: LtcFoldedLobe, a: LtcFoldedPoint, b: LtcFoldedPoi
   if (!above_b && above_c) {
     entered = bc;
   }
-  sum += ltc_folded_edge(folded, left, entered);
   // A bent one may do so twice.
-  if (above_a == above_c && above_b == above_d && above_a != above_b) {
-    if (above_a) {
+  var count: i32 = 1;
+  if (above_a == above_c && above_b == above_d) {
+    count = 2;
+    if (above_a == above_b) {
+      count = 0;
+    }
+  }
+  for (var i: i32 = 0; i < count; i++) {
+    if (i == 1 && above_a) {
       left = cd;
       entered = da;
-    } else {
+    } else if (i == 1) {
       left = da;
       entered = ab;
     }

@@ -186,7 +186,7 @@ TEST_P(Shaders, APlantedErrorIsNoticed) {
            "0.5 * side",
            "abs(p.x) - folded.h * p.z",
            "1.0057411",
-           "folded.k * lobe.m0.y",
+           "side * lobe.w0 - folded.h * lobe.w2",
            "alpha * alpha * f_kappa"};
   for (const std::string& planted : all) {
     Job job = sound;
