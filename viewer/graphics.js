@@ -7,7 +7,7 @@ void main() {
   gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0, 1);
 }`;
 const LIBRARY = ['ltc_lobe', 'ltc_polygon', 'ltc_disk', 'ltc_line', 'ltc_table', 'ltc_texture',
-                 'ltc_folded', 'ltc_folded_lights'];
+                 'ltc_folded', 'ltc_folded_lights', 'ltc_folded_table'];
 // What each program is made of; `table` programs also of a table's look-up.
 const PROGRAMS = {
   table: [...LIBRARY, 'scene', 'table', 'table_main'],
@@ -65,7 +65,7 @@ class Graphics {
 
   tableTexture(table) {
     const { gl } = this;
-    const [alphas, lambdas, thetas, phis] = table.size, depth = 3 * alphas * lambdas;
+    const [alphas, lambdas, thetas, phis] = table.size, depth = (table.folded ? 4 : 3) * alphas * lambdas;
     const most = gl.getParameter(gl.MAX_3D_TEXTURE_SIZE);
     if (Math.max(depth, thetas, phis) > most)
       throw new Error(`${table.name} is ${phis} x ${thetas} x ${depth} texels; this browser's 3-D ` +

@@ -8,6 +8,7 @@ uniform LtcTable table;
 
 // Of folded lobes and of plain ones, by one name each.
 #if FOLDED
+#define VOLUMES 4.0
 #define Lobe LtcFoldedLobe
 #define Outline LtcFoldedOutline
 #define outline_begin ltc_outline_begin_folded
@@ -20,6 +21,7 @@ uniform LtcTable table;
 #define density ltc_density_folded
 LtcLobe plain(LtcFoldedLobe lobe) { return lobe.lobe; }
 #else
+#define VOLUMES 3.0
 #define Lobe LtcLobe
 #define Outline LtcOutline
 #define outline_begin ltc_outline_begin
@@ -52,34 +54,38 @@ Lobe lobe_of(vec3 view, vec2 alphas) {
 #endif
 }
 #else
-LtcTexels fetched(vec4 at) {
-  LtcTexels texels;
+// Of the volume of this number.
+vec4 fetched(vec4 at, float volume) {
 #if EXACT
-  texels.a = ltc_fetch_exact(values, table, at, 0.0);
-  texels.b = ltc_fetch_exact(values, table, at, 1.0);
-  texels.c = ltc_fetch_exact(values, table, at, 2.0);
+  return ltc_fetch_exact(values, table, at, volume);
 #else
-  texels.a = ltc_fetch(values, table, at, 0.0, 3.0);
-  texels.b = ltc_fetch(values, table, at, 1.0, 3.0);
-  texels.c = ltc_fetch(values, table, at, 2.0, 3.0);
+  return ltc_fetch(values, table, at, volume, VOLUMES);
 #endif
-  return texels;
+}
+
+Lobe found(LtcReduced reduced, vec4 at) {
+  LtcTexels texels = LtcTexels(fetched(at, 0.0), fetched(at, 1.0), fetched(at, 2.0));
+#if FOLDED
+  return ltc_unreduce_folded(table, reduced, texels, fetched(at, 3.0));
+#else
+  return ltc_unreduce(table, reduced, texels);
+#endif
 }
 
 #if BOTH_ALPHAS
 // A table over alpha_x and alpha_y, which has both orders: nothing is swapped.
-LtcLobe lobe_of(vec3 view, vec2 alphas) {
+Lobe lobe_of(vec3 view, vec2 alphas) {
   LtcReduced reduced = ltc_reduce(table, view, 1.0, 1.0);
   reduced.alpha = alphas.x;
   reduced.beta = alphas.y;
   vec4 at = ltc_positions(table, reduced);
   at.y = ltc_position(alphas.y, table.size.y, table.first.y, table.last.y, table.warp.y);
-  return ltc_unreduce(table, reduced, fetched(at));
+  return found(reduced, at);
 }
 #else
-LtcLobe lobe_of(vec3 view, vec2 alphas) {
+Lobe lobe_of(vec3 view, vec2 alphas) {
   LtcReduced reduced = ltc_reduce(table, view, alphas.x, alphas.y);
-  return ltc_unreduce(table, reduced, fetched(ltc_positions(table, reduced)));
+  return found(reduced, ltc_positions(table, reduced));
 }
 #endif
 #endif

@@ -28,13 +28,13 @@ std::string written_endings() {
 }
 
 void convert(const Arguments& arguments, Files& files) {
-  const Table table = read_input(arguments.input, arguments.layout, FoldedFields::taken);
+  const Table table = read_input(arguments.input, arguments.layout);
   const NamedSet output = set_to_write(arguments.output, table.field || arguments.functions);
   if (!output.format)
     throw InputError(fmt::format("-o {}: no suffix of a table; expected {}",
                                  one_line(arguments.output), written_endings()));
   const TextureLayout layout = resolved(arguments.options.layout, table.grid, table.storage);
-  const TableFiles written = output.format->files(output.prefix, layout);
+  const TableFiles written = output.format->files(output.prefix, table.grid, table.storage, layout);
   const std::string plain = output.prefix.string() + output.format->sets.back().front();
   if (arguments.output != plain &&
       std::ranges::find(written, std::filesystem::path(arguments.output)) == written.end())

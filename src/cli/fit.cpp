@@ -134,7 +134,7 @@ Eigen::Matrix3d parse_start(const std::string& text, const Config& config, const
   if (text.starts_with(given))
     return parse_matrix(text, std::string_view(text).substr(given.size()));
   if (text.starts_with(start_from)) {
-    const Table table = read_input(start_table(text), layout);
+    const Table table = read_input(start_table(text), layout, FoldedLobes::refused);
     Eigen::Matrix3d matrix =
         entry && table.grid == config.grid ? table.matrix_at(*entry) : look_up(table, lobe).matrix;
     if (!matrix.allFinite())
@@ -224,7 +224,7 @@ void require_one_name(const Arguments& arguments) {
 
 // What the table holds for the lobe; nothing is fitted but the floor.
 void show_as_in(const Arguments& arguments, const RunContext& run) {
-  Table table = read_input(arguments.as_in, arguments.layout);
+  Table table = read_input(arguments.as_in, arguments.layout, FoldedLobes::refused);
   const TableContents contents = contents_of(arguments.as_in, table);
   StoredReport report{arguments.as_in, contents, std::move(table), {}};
   const auto named = [&](auto&& action) {

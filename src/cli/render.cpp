@@ -86,7 +86,7 @@ Tables load_tables(const Arguments& arguments) {
   if (!arguments.table_b.empty())
     tables.paths.push_back(arguments.table_b);
   for (std::size_t i = 0; i < tables.paths.size(); ++i) {
-    tables.tables.push_back(read_input(tables.paths[i], arguments.layout, FoldedFields::taken));
+    tables.tables.push_back(read_input(tables.paths[i], arguments.layout));
     fill_missing_albedo(tables.tables.back());
     tables.names.push_back(tables.paths.size() == 1 ? "LTC" : i == 0 ? "LTC, A" : "LTC, B");
   }

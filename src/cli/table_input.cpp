@@ -9,6 +9,7 @@
 
 #include "cli/options.h"
 #include "cli/output.h"
+#include "core/error.h"
 #include "export/table_file.h"
 
 namespace ltc::cli {
@@ -36,10 +37,12 @@ void add_layout_option(CLI::App& app, std::optional<ReadAs>& as) {
   allow_names(option, names)->option_text("LAYOUT")->group("How to read tables");
 }
 
-Table read_input(const std::string& file, const std::optional<ReadAs>& as, FoldedFields folded) {
-  ReadAs reading = as.value_or(ReadAs{});
-  reading.folded = folded == FoldedFields::taken;
-  Table table = read_table(file, reading);
+Table read_input(const std::string& file, const std::optional<ReadAs>& as, FoldedLobes folded) {
+  Table table = read_table(file, as.value_or(ReadAs{}));
+  if (is_folded(table) && folded == FoldedLobes::refused)
+    throw InputError(fmt::format(
+        "{}: its lobes are folded; expected a table or field of plain ones (docs/folded.md)",
+        one_line(file)));
   // A line that cannot be written is no reason to stop.
   if (!as && !table.read_as.empty())
     std::fputs(fmt::format("{}: {}\n", one_line(file), table.read_as).c_str(), stderr);
@@ -49,7 +52,7 @@ Table read_input(const std::string& file, const std::optional<ReadAs>& as, Folde
 void write_output(const Table& table, const NamedSet& output, const WriteOptions& options,
                   Files& files) {
   const TableFiles written =
-      output.format->files(output.prefix, resolved(options.layout, table.grid, table.storage));
+      output.format->files(output.prefix, table.grid, table.storage, options.layout);
   for (const std::filesystem::path& file : written)
     files.write("-o", file);
   platform::FileSet set;

@@ -17,10 +17,10 @@ void add_layout_option(CLI::App& app, std::optional<ReadAs>& as);
 
 // read_table; on standard error, in a line, what a file was taken for that does not say it, and
 // why.
-// Folded fields are for commands that know them alone.
-enum class FoldedFields { refused, taken };
+// Whether tables of folded lobes (ltc/folded.h) are for this command.
+enum class FoldedLobes { refused, taken };
 Table read_input(const std::string& file, const std::optional<ReadAs>& as,
-                 FoldedFields folded = FoldedFields::refused);
+                 FoldedLobes folded = FoldedLobes::taken);
 
 // Writes a table to the files of `output` in the layout that the options ask for, and prints their
 // names. None may be one that the command reads or writes already (Files).

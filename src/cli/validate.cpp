@@ -49,12 +49,12 @@ void validate(const Arguments& arguments, Files& files) {
   if (!arguments.report.empty())
     files.write("--report", files.make_folder(arguments.report) / page_name);
   Validation report{arguments.table,
-                    read_input(arguments.table, arguments.layout, FoldedFields::taken),
+                    read_input(arguments.table, arguments.layout),
                     {},
                     std::nullopt,
                     {}};
   if (is_folded(report.table) && !arguments.report.empty())
-    throw InputError(fmt::format("{}: a folded field; --report draws lobes without a fold alone",
+    throw InputError(fmt::format("{}: its lobes are folded; --report draws plain ones alone",
                                  arguments.table));
   const ValidateSettings settings =
       load_validate_settings(arguments.config.path(), arguments.config.overrides,

@@ -58,6 +58,8 @@ Draft draft_of(const Config& config) {
 
 Config config_of(const Draft& draft) {
   Config config = draft.config;
+  if (config.field.folded)
+    config.storage = Storage::folded;
   config.grid.alpha = axis_of(draft.alpha);
   config.grid.lambda = axis_of(draft.lambda);
   config.grid.theta = axis_of_degrees(draft.theta_degrees);

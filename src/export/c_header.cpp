@@ -3,6 +3,7 @@
 // A table or a field as one C99 header: look-up, polygons, sampling, no dependency.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -62,18 +63,26 @@ std::string axis_function(std::string_view name, const Axis& axis) {
   return text + fmt::format("  return {} * x;\n}}\n", number(last));
 }
 
+std::size_t values_of_node(const Table& table) {
+  return is_folded(table) ? 13 : 11;
+}
+
 std::string table_data(const Table& table) {
   std::string text = fmt::format(
       "/* Of each node, in C order of alpha, lambda, theta, phi: nine values row by row, "
       "amplitude,\n"
-      "   Fresnel term. */\nstatic const float ltc_nodes[{}][11] = {{\n",
-      table.grid.size());
+      "   Fresnel term{}. */\nstatic const float ltc_nodes[{}][{}] = {{\n",
+      is_folded(table) ? ", kappa, gamma" : "", table.grid.size(), values_of_node(table));
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
     text += "{";
     for (std::size_t i = 0; i < 9; ++i)
       text += number(static_cast<double>(table.stored[9 * flat + i])) + ", ";
     text += number(static_cast<double>(table.amplitude[flat])) + ", " +
-            number(static_cast<double>(table.fresnel[flat])) + "},\n";
+            number(static_cast<double>(table.fresnel[flat]));
+    if (is_folded(table))
+      text += ", " + number(static_cast<double>(table.fold[2 * flat])) + ", " +
+              number(static_cast<double>(table.fold[2 * flat + 1]));
+    text += "},\n";
   }
   return text + "};\n\n";
 }
@@ -102,12 +111,13 @@ std::string_view storage_code(Storage storage) {
     m[3 * i + 1] *= beta;
   }
 )";
+    case Storage::folded:
     case Storage::mirror_frame:
       return R"(  {
     const float x = sinf(theta) * cosf(phi), y = sinf(theta) * sinf(phi), z = cosf(theta);
     const float k = 1 / (1 + z);
     for (j = 0; j < 3; ++j) {
-      const float scale = j == 0 ? alpha : j == 1 ? beta : 1;
+      const float scale = j == 0 ? alpha : j == 1 ? width : 1;
       const float a = scale * m[j], b = scale * m[3 + j], c = scale * m[6 + j];
       m[j] = (z + y * y * k) * a - x * y * k * b - x * c;
       m[3 + j] = (z + x * x * k) * b - x * y * k * a - y * c;
@@ -160,6 +170,42 @@ std::string fold_code(const Grid& grid) {
                      least);
 }
 
+// s_y of field/field.h.
+constexpr std::string_view width_of_folded = R"(  {
+    const float least = 0.1f * alpha, l = beta / alpha;
+    width = alpha * sqrtf(l * l + least * least * (1 - l * l));
+  }
+)";
+
+constexpr std::string_view plain_rows =
+    R"(  /* Back from the folded lobe, rows and columns alike: the determinant keeps its sign. */
+  for (i = 0; i < 3; ++i)
+    for (j = 0; j < 3; ++j) {
+      const int r = swapped && i < 2 ? 1 - i : i, c = swapped && j < 2 ? 1 - j : j;
+      const float sign = (i == 0 ? sign_x : i == 1 ? sign_y : 1) *
+                         (j == 0 ? sign_x : j == 1 ? sign_y : 1);
+      turned[3 * i + j] = sign * m[3 * r + c];
+    }
+)";
+constexpr std::string_view folded_rows =
+    R"(  /* Back from the reduced query, rows alone: the fold feels what its columns are turned by, but for
+     their x's sign, which keeps the determinant positive. */
+  for (i = 0; i < 3; ++i)
+    for (j = 0; j < 3; ++j) {
+      const float mirrored = sign_x * sign_y * (swapped ? -1.0f : 1.0f);
+      turned[3 * i + j] = (i == 0 ? sign_x : i == 1 ? sign_y : 1) * (j == 0 ? mirrored : 1) *
+                          m[3 * (swapped && i < 2 ? 1 - i : i) + j];
+    }
+)";
+
+std::string fold_of_table(const Creases& creases) {
+  return fmt::format(R"(  lobe.k = alpha * alpha * sum[11] / width;
+  lobe.g = sum[12] < {0} ? sum[12] : {0};
+  lobe.h = {1};
+)",
+                     number(std::min(most_fold(creases), 1e30)), number(creases.front()));
+}
+
 std::string table_look_up(const Table& table) {
   const Grid& grid = table.grid;
   std::string text = table_data(table);
@@ -170,11 +216,12 @@ std::string table_look_up(const Table& table) {
   text += look_up_comment;
   text += fmt::format(R"(  static const int shape[4] = {{{}, {}, {}, {}}};
   ltc_lobe lobe;
-  float position[4], fraction[4], sum[11] = {{0}}, m[9], turned[9];
+  float position[4], fraction[4], sum[{}] = {{0}}, m[9], turned[9], width;
   int node[4], i, j, corner;
 )",
-                      shape[0], shape[1], shape[2], shape[3]);
+                      shape[0], shape[1], shape[2], shape[3], values_of_node(table));
   text += fold_code(grid);
+  text += is_folded(table) ? width_of_folded : "  width = beta;\n";
   text += R"(  for (i = 0; i < 4; ++i) {
     node[i] = (int)position[i];
     if (node[i] > shape[i] - 2) node[i] = shape[i] > 1 ? shape[i] - 2 : 0;
@@ -189,21 +236,13 @@ std::string table_look_up(const Table& table) {
       flat = flat * shape[i] + node[i] + (shape[i] > 1 ? side : 0);
     }
     if (weight != 0)
-      for (i = 0; i < 11; ++i) sum[i] += weight * ltc_nodes[flat][i];
+      for (i = 0; i < (int)(sizeof sum / sizeof *sum); ++i) sum[i] += weight * ltc_nodes[flat][i];
   }
   for (i = 0; i < 9; ++i) m[i] = sum[i];
 )";
   text += storage_code(table.storage);
-  text +=
-      R"(  /* Back from the folded lobe, rows and columns alike: the determinant keeps its sign. */
-  for (i = 0; i < 3; ++i)
-    for (j = 0; j < 3; ++j) {
-      const int r = swapped && i < 2 ? 1 - i : i, c = swapped && j < 2 ? 1 - j : j;
-      const float sign = (i == 0 ? sign_x : i == 1 ? sign_y : 1) *
-                         (j == 0 ? sign_x : j == 1 ? sign_y : 1);
-      turned[3 * i + j] = sign * m[3 * r + c];
-    }
-  for (j = 0; j < 3; ++j) {
+  text += is_folded(table) ? folded_rows : plain_rows;
+  text += R"(  for (j = 0; j < 3; ++j) {
     const float a = turned[j], b = turned[3 + j];
     lobe.m[j] = cosf(turn) * a - sinf(turn) * b;
     lobe.m[3 + j] = sinf(turn) * a + cosf(turn) * b;
@@ -211,13 +250,11 @@ std::string table_look_up(const Table& table) {
   }
   lobe.amplitude = sum[9];
   lobe.fresnel = sum[10];
-  (void)alpha, (void)beta;
-  return lobe;
-}
 )";
-  return text;
+  if (is_folded(table))
+    text += fold_of_table(table.creases);
+  return text + "  (void)alpha, (void)beta, (void)width;\n  return lobe;\n}\n";
 }
-
 // What a file says cannot end a comment.
 std::string in_comment(std::string text) {
   for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;)

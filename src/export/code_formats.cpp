@@ -22,8 +22,9 @@ Format field_function_format(const char* ending, CodeLanguage language) {
           .add = [language](platform::FileSet& set, const Table& table, const TableFiles& files,
                             const WriteOptions&) {
             add_file(set, files.front(),
-                     table.field ? field_function(*table.field, language)
-                                 : table_constant(table.grid, table.storage, language));
+                     table.field
+                         ? field_function(*table.field, language)
+                         : table_constant(table.grid, table.storage, language, table.creases));
           }};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <string>
 
@@ -16,7 +17,7 @@
 namespace ltc {
 namespace {
 
-constexpr std::size_t bytes_per_entry = (9 + 3) * sizeof(float) + sizeof(Status) + 2;
+constexpr std::size_t bytes_per_entry = (9 + 2 + 3) * sizeof(float) + sizeof(Status) + 2;
 static_assert(max_nodes_per_axis * max_nodes_per_axis * max_nodes_per_axis * max_nodes_per_axis *
                       bytes_per_entry <
                   std::size_t{2} << 30,
@@ -73,6 +74,19 @@ void require_shapes(const Table& table, const std::filesystem::path& file) {
   require("sw_loss", table.sw_loss.size(), entries);
   require("status", table.status.size(), entries);
   require("iterations", table.iterations.size(), entries);
+  require("fold", table.fold.size(), is_folded(table) ? 2 * entries : 0);
+  if (is_folded(table))
+    require_creases(table.creases, file);
+}
+
+void require_creases(const Creases& creases, const std::filesystem::path& file) {
+  constexpr double most = 100;
+  const bool in_range = std::ranges::all_of(creases, [](double h) { return h >= 0 && h <= most; });
+  if (creases.empty() || creases.size() > most_creases || !in_range)
+    refuse_file(file, fmt::format("creases are [{}]; allowed: one to {} numbers of 0 to {}",
+                                  fmt::join(creases, ", "), most_creases, most));
+  if (std::ranges::adjacent_find(creases, std::greater_equal()) != creases.end())
+    refuse_file(file, fmt::format("creases are [{}]; they must increase", fmt::join(creases, ", ")));
 }
 
 void require_consistent(const Table& table, const std::filesystem::path& file) {
@@ -80,15 +94,23 @@ void require_consistent(const Table& table, const std::filesystem::path& file) {
   if (table.storage == Storage::inverse && !is_isotropic(table.grid))
     refuse_file(file, "storage is inverse, yet lambda = 1 and phi = 0 are not its only nodes");
   for (std::size_t i = 0; i < table.grid.size(); ++i) {
-    const auto first = table.stored.begin() + static_cast<std::ptrdiff_t>(9 * i);
-    if (has_values(table.status[i]) &&
-        !std::all_of(first, first + 9, [](float value) { return std::isfinite(value); })) {
-      refuse_file(
-          file,
-          fmt::format("matrix of entry ({}) is not finite, yet its status is {}; only a "
-                      "skipped (0) or failed (4) entry has none",
-                      fmt::join(table.grid.indices(i), ", "), static_cast<int>(table.status[i])));
-    }
+    if (!has_values(table.status[i]))
+      continue;
+    const auto require_finite = [&](const char* name, const std::vector<float>& values,
+                                    std::size_t count) {
+      const auto first = values.begin() + static_cast<std::ptrdiff_t>(count * i);
+      if (!std::all_of(first, first + static_cast<std::ptrdiff_t>(count),
+                       [](float value) { return std::isfinite(value); }))
+        refuse_file(
+            file,
+            fmt::format("{} of entry ({}) is not finite, yet its status is {}; only a "
+                        "skipped (0) or failed (4) entry has none",
+                        name, fmt::join(table.grid.indices(i), ", "),
+                        static_cast<int>(table.status[i])));
+    };
+    require_finite("matrix", table.stored, 9);
+    if (is_folded(table))
+      require_finite("fold", table.fold, 2);
   }
 }
 

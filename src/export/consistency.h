@@ -22,7 +22,13 @@ void require_consistent(const Grid& grid, const std::filesystem::path& file);
 // The same, and that every array has the grid's size.
 void require_shapes(const Table& table, const std::filesystem::path& file);
 
-// The same, and that the matrix of every entry that is neither skipped nor failed is finite.
+// Throws InputError naming `file` for creases (ltc/folded.h) that are none or more than
+// most_creases, not of 0 to 100, or not increasing.
+inline constexpr std::size_t most_creases = 4;
+void require_creases(const Creases& creases, const std::filesystem::path& file);
+
+// The same, and that the matrix of every entry that is neither skipped nor failed is finite,
+// and of folded lobes the fold and the creases.
 void require_consistent(const Table& table, const std::filesystem::path& file);
 
 // Also with an amplitude and a Fresnel term for every matrix, as files need that hold them: the

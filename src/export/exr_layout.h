@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// How a table's values lie in the three images: shared by exr_write.cpp and exr_read.cpp.
+// How a table's values lie in the three images, four of folded lobes: shared by exr_write.cpp and exr_read.cpp.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "export/entry_channels.h"
 #include "export/format.h"
@@ -19,13 +21,16 @@ Table read_exr(const TableFiles& files, const ReadAs& as);
 namespace exr_layout {
 
 inline constexpr int version = 1;  // of ltc:format_version
-inline constexpr int files = texels_per_entry;
+inline constexpr std::size_t most_files = texels_per_entry + 1;  // of folded lobes
 inline constexpr std::size_t channels_per_file = channels_per_texel;
 inline constexpr std::array<const char*, channels_per_file> channel_names = {"R", "G", "B", "A"};
 
 // What R, G, B and A of each file hold, as in the attribute ltc:channels.
-inline constexpr std::array<std::string_view, files> channel_contents = {
-    "m00,m01,m02,m10", "m11,m12,m20,m21", "m22,amplitude,fresnel,0"};
+inline constexpr std::array<std::string_view, most_files> channel_contents = {
+    "m00,m01,m02,m10", "m11,m12,m20,m21", "m22,amplitude,fresnel,0", "kappa,gamma,0,0"};
+
+inline const std::vector<std::string> endings = {".0.exr", ".1.exr", ".2.exr"};
+inline const std::vector<std::string> folded_endings = {".0.exr", ".1.exr", ".2.exr", ".3.exr"};
 
 struct Size {
   std::size_t width, height;

@@ -77,6 +77,20 @@ std::optional<bool> read_refined(const Imf::Header& header, const fs::path& path
   return refined == 1;
 }
 
+// Of folded lobes alone.
+Creases read_creases(const Imf::Header& header, const Table& table, const fs::path& path) {
+  if (!is_folded(table))
+    return {};
+  Creases creases;
+  try {
+    creases = json_attribute(header, "ltc:creases", path).get<Creases>();
+  } catch (const nlohmann::json::exception& error) {
+    refuse(path, fmt::format("header attribute ltc:creases: {}", error.what()));
+  }
+  require_creases(creases, path);
+  return creases;
+}
+
 bool has_half_channel(const Imf::Header& header) {
   for (const char* name : channel_names)
     if (header.channels().findChannel(name)->type == Imf::HALF)
@@ -132,6 +146,7 @@ Table read_header(const Imf::InputFile& file, std::size_t index, std::uintmax_t 
   require_room_for_pixels(grid, file_bytes, path);
   const auto storage = attribute<Imf::StringAttribute>(header, "ltc:storage", path);
   Table table = Table::empty(grid, value_named<Storage>(storage));
+  table.creases = read_creases(header, table, path);
   table.refined = read_refined(header, path);
   table.precision = has_half_channel(header) ? Precision::half : Precision::single;
   return table;
@@ -179,8 +194,10 @@ void read_file_into(Table& table, std::size_t index, const fs::path& path) {
     if (index == 0)
       table = std::move(found);
     else if (found.grid != table.grid || found.storage != table.storage ||
-             found.refined != table.refined)
-      refuse(path, "axes, warp, storage, alpha_min or ltc:refined differ from those of file 0");
+             found.refined != table.refined || found.creases != table.creases)
+      refuse(path,
+             "axes, warp, storage, alpha_min, ltc:refined or ltc:creases differ from those of file "
+             "0");
     if (half)
       table.precision = Precision::half;
     take_pixels(table, index, read_pixels(file, table.grid), path);
@@ -199,8 +216,15 @@ void read_file_into(Table& table, std::size_t index, const fs::path& path) {
 
 Table read_exr(const TableFiles& paths, const ReadAs&) {
   Table table;
-  for (std::size_t index = 0; index < paths.size(); ++index)
+  for (std::size_t index = 0; index < texels_per_entry; ++index)
     read_file_into(table, index, paths[index]);
+  if (is_folded(table)) {
+    const std::string first = paths.front().string();
+    read_file_into(table, texels_per_entry,
+                   first.substr(0, first.size() - folded_endings.front().size()) +
+                       folded_endings.back());
+    require_consistent(table, paths.front());
+  }
   table.status.assign(table.grid.size(), Status::fitted);
   return table;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Tables as three OpenEXR images, each a 3-D texture laid out as an atlas: pixel x = phi + Nphi
+// Tables as three OpenEXR images, folded ones as four, each a 3-D texture laid out as an atlas: pixel x = phi + Nphi
 // lambda, y = theta + Ntheta alpha. docs/files.md says which channel holds what. Writing.
 #include <Iex.h>
 #include <ImfChannelList.h>
@@ -45,11 +45,11 @@ void require_storable(const Table& table, std::size_t entry, float value, float 
                   file.string(), fmt::join(table.grid.indices(entry), ", "), value, largest));
 }
 
-std::array<Pixels, files> gather_pixels(const Table& table, const TableFiles& paths, bool half) {
+std::vector<Pixels> gather_pixels(const Table& table, const TableFiles& paths, bool half) {
   require_albedo(table, paths.front());
   const std::vector<std::size_t> source = nearest_fitted(table);
   const float largest = largest_value(half ? Precision::half : Precision::single);
-  std::array<Pixels, files> pixels;
+  std::vector<Pixels> pixels(texels_of(table));
   for (std::size_t file = 0; file < pixels.size(); ++file) {
     pixels[file].resize(channels_per_file * table.grid.size());
     for (std::size_t entry = 0; entry < source.size(); ++entry) {
@@ -82,6 +82,8 @@ Imf::Header make_header(const Table& table, std::size_t file, Imf::PixelType typ
   header.insert("ltc:alpha_min", Imf::DoubleAttribute(table.grid.alpha_min));
   if (table.refined)
     header.insert("ltc:refined", Imf::IntAttribute(*table.refined));
+  if (is_folded(table))
+    header.insert("ltc:creases", Imf::StringAttribute(nlohmann::json(table.creases).dump()));
   header.insert("ltc:channels", Imf::StringAttribute(std::string(channel_contents[file])));
   return header;
 }
@@ -121,8 +123,8 @@ std::string encode_file(const Table& table, std::size_t file, const Pixels& pixe
 // range.
 void add_exr(platform::FileSet& set, const Table& table, const TableFiles& paths,
              const WriteOptions& options) {
-  const std::array<Pixels, files> pixels = gather_pixels(table, paths, options.half);
-  std::array<std::string, files> encoded;
+  const std::vector<Pixels> pixels = gather_pixels(table, paths, options.half);
+  std::vector<std::string> encoded(pixels.size());
   try {
     for (std::size_t file = 0; file < encoded.size(); ++file)
       encoded[file] = encode_file(table, file, pixels[file], options.half);
@@ -138,11 +140,13 @@ void add_exr(platform::FileSet& set, const Table& table, const TableFiles& paths
 
 Format exr_format() {
   return {.name = "OpenEXR",
-          .sets = {{".0.exr", ".1.exr", ".2.exr"}},
+          .sets = {endings},
           .asked = &OutputSettings::exr,
           .contents = {.albedo = true, .loss = false},
-          .entry_bytes = files * channels_per_file * 4,
+          .entry_bytes = texels_per_entry * channels_per_file * 4,
           .half = &OutputSettings::exr_half,
+          .of_folded = true,
+          .folded_set = folded_endings,
           .read = read_exr,
           .add = add_exr};
 }

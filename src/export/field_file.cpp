@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/read_file.h"
 #include "core/write_file.h"
+#include "export/consistency.h"
 #include "export/file.h"
 #include "table/field_table.h"
 
@@ -83,10 +84,7 @@ class Reader {
     require("format", format_name);
     require("format_version", field_format_version);
     Field field;
-    if (json_.contains("creases"))
-      require("basis", folded_basis_name);
-    else
-      require("basis", field_basis_name);
+    require("basis", basis_name(json_.contains("creases")));
     field.alpha_min = real("alpha_min");
     if (!(field.alpha_min >= least_alpha_min && field.alpha_min <= 1))
       refuse_file(file_, fmt::format("alpha_min is {}; allowed: {} to 1", field.alpha_min,
@@ -153,18 +151,12 @@ class Reader {
     const auto json = json_.find("creases");
     if (json == json_.end())
       return;
-    constexpr std::size_t most_creases = 4;
-    const auto is_crease = [](const Json& value) {
-      return value.is_number() && value.get<double>() >= 0 && value.get<double>() <= 100;
-    };
-    if (!json->is_array() || json->empty() || json->size() > most_creases ||
-        !std::all_of(json->begin(), json->end(), is_crease))
-      refuse_file(file_, fmt::format("creases are {}; allowed: one to {} numbers of 0 to 100",
-                                     short_text(*json), most_creases));
+    if (!json->is_array() || !std::all_of(json->begin(), json->end(), [](const Json& value) {
+          return value.is_number();
+        }))
+      refuse_file(file_, fmt::format("creases are {}; expected numbers", short_text(*json)));
     field.creases = json->get<Creases>();
-    for (std::size_t i = 1; i < field.creases.size(); ++i)
-      if (field.creases[i] <= field.creases[i - 1])
-        refuse_file(file_, fmt::format("creases are {}; they must increase", short_text(*json)));
+    require_creases(field.creases, file_);
   }
 
   void read_material(Field& field) const {
@@ -248,7 +240,7 @@ std::string encode_field(const Table& table) {
   const Field& field = *table.field;
   Json json = {{"format", format_name},
                {"format_version", field_format_version},
-               {"basis", field.creases.empty() ? field_basis_name : folded_basis_name},
+               {"basis", basis_name(!field.creases.empty())},
                {"brdf", field.model->name()},
                {"alpha_min", field.alpha_min},
                {"generator", table.generator},

@@ -14,8 +14,9 @@
 namespace ltc {
 
 // The basis of field/field.h as files name it, and the version of their contract.
-inline constexpr std::string_view field_basis_name = "chebyshev-polar";
-constexpr const char* folded_basis_name = "chebyshev-polar-folded";  // of folded ones, in JSON
+constexpr const char* basis_name(bool folded) {
+  return folded ? "chebyshev-polar-folded" : "chebyshev-polar";
+}
 inline constexpr int field_format_version = 1;
 
 // A term's numbers as files have them: degrees in alpha, lambda, r and w, and the order in phi.

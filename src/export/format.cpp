@@ -50,14 +50,19 @@ TableFiles named(const std::filesystem::path& prefix, const std::vector<std::str
 
 }  // namespace
 
-TableFiles Format::files(const std::filesystem::path& prefix, TextureLayout layout) const {
-  return named(prefix, set_for ? set_for(layout) : sets.front());
+TableFiles Format::files(const std::filesystem::path& prefix, const Grid& grid, Storage storage,
+                         TextureLayout layout) const {
+  if (storage == Storage::folded && !folded_set.empty())
+    return named(prefix, folded_set);
+  return named(prefix, set_for ? set_for(resolved(layout, grid, storage)) : sets.front());
 }
 
 TableFiles Format::all_files(const std::filesystem::path& prefix) const {
   TableFiles result;
   for (const std::vector<std::string>& endings : sets)
     std::ranges::copy(named(prefix, endings), std::back_inserter(result));
+  if (!folded_set.empty())
+    result.push_back(named(prefix, folded_set).back());
   return result;
 }
 
@@ -85,8 +90,9 @@ NamedSet set_of(const std::filesystem::path& file) {
   const std::string name = file.string();
   NamedSet found{nullptr, file, {file}};
   std::size_t longest = 0;
-  for (const Format& format : formats())
-    for (const auto* const sets : {&format.sets, &format.named_sets})
+  for (const Format& format : formats()) {
+    const std::vector<std::vector<std::string>> of_folded = {format.folded_set};
+    for (const auto* const sets : {&format.sets, &format.named_sets, &of_folded})
       for (const std::vector<std::string>& endings : *sets)
         for (const std::string& ending : endings)
           if (name.ends_with(ending) && ending.size() > longest) {
@@ -94,6 +100,7 @@ NamedSet set_of(const std::filesystem::path& file) {
             const std::filesystem::path prefix = name.substr(0, name.size() - longest);
             found = {&format, prefix, named(prefix, endings)};
           }
+  }
   return found;
 }
 

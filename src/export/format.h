@@ -35,7 +35,6 @@ struct WriteOptions {
 struct ReadAs {
   std::optional<Layout> axes;  // of arrays without axes; else told apart
   TextureLayout textures = TextureLayout::automatic;
-  bool folded = false;  // whether a folded field (ltc/folded.h) may come of it: else it is refused
 };
 
 // The files of one table, in the order of the format's endings.
@@ -53,7 +52,7 @@ struct Format {
   bool OutputSettings::*half = nullptr;
   bool of_fields = false;     // whether it holds fields alone
   bool of_materials = false;  // whether it holds fields of one material
-  bool of_folded = false;     // whether it holds folded fields; the others know of no fold
+  bool of_folded = false;     // whether it holds folded lobes; the others know of no fold
   bool of_one_pair = false;   // and of these only those with one pair of creases
   bool without_axes = false;  // whether a reader is to be told the layout of the grid
   // Whether others use such names for files of their own, so that none is removed as an older one
@@ -61,6 +60,8 @@ struct Format {
   bool ending_of_others = false;
   // Sets that are called as others call them: read, and written by the layouts that are theirs.
   std::vector<std::vector<std::string>> named_sets = {};
+  // The set of folded tables, where it is another one.
+  std::vector<std::string> folded_set = {};
   // Which of these sets is written; null: the first of `sets`.
   std::function<std::vector<std::string>(TextureLayout layout)> set_for = {};
   // Why it cannot hold tables of this grid, storage and layout, after "it"; empty where it can.
@@ -76,8 +77,9 @@ struct Format {
                      const WriteOptions& options)>
       add = {};
 
-  // Those that are written, `layout` resolved.
-  TableFiles files(const std::filesystem::path& prefix, TextureLayout layout) const;
+  // Those that are written of tables of such a grid and storage.
+  TableFiles files(const std::filesystem::path& prefix, const Grid& grid, Storage storage,
+                   TextureLayout layout) const;
   // Those that any layout writes under names of ours.
   TableFiles all_files(const std::filesystem::path& prefix) const;
   // The same for any format: one that names its axes calls them alpha and lambda.
@@ -88,8 +90,8 @@ struct Format {
     return asked && config.output.*asked && (!of_fields || config.field.size > 0);
   }
   bool is_written(const Config& config) const {
-    return is_asked(config) && (of_folded || !config.field.folded) &&
-           !(of_one_pair && config.field.folded && config.field.second_crease > 0) &&
+    return is_asked(config) && (of_folded || config.storage != Storage::folded) &&
+           !(of_one_pair && config.storage == Storage::folded && config.field.second_crease > 0) &&
            why_not(config.grid, config.storage, config.output.layout).empty();
   }
 };

@@ -73,6 +73,12 @@ std::vector<std::size_t> matrix_shape(const Grid& grid) {
   return shape;
 }
 
+std::vector<std::size_t> fold_shape(const Grid& grid) {
+  std::vector<std::size_t> shape = entry_shape(grid);
+  shape.push_back(2);
+  return shape;
+}
+
 void write_entries(Hdf5Output& file, const Table& table) {
   const std::vector<std::size_t> shape = entry_shape(table.grid);
   file.values<float>("matrix", matrix_shape(table.grid), table.stored);
@@ -84,13 +90,17 @@ void write_entries(Hdf5Output& file, const Table& table) {
   file.values<std::uint8_t>("status", shape,
                             {reinterpret_cast<const std::uint8_t*>(status.data()), status.size()});
   file.values<std::uint16_t>("iterations", shape, table.iterations);
+  if (!is_folded(table))
+    return;
+  file.values<float>("fold", fold_shape(table.grid), table.fold);
+  file.values<double>("creases", {table.creases.size()}, table.creases);
 }
 
 // A row a term: its part, then its numbers.
 constexpr std::size_t term_bytes = 1 + std::tuple_size_v<decltype(numbers_of({}))>;
 
 void write_field(Hdf5Output& file, const Field& field) {
-  file.text(root, field_attribute, std::string(field_basis_name));
+  file.text(root, field_attribute, std::string(basis_name(!field.creases.empty())));
   file.group("field");
   std::vector<std::uint8_t> rows;
   for (const FieldTerm& term : field.terms) {
@@ -187,19 +197,32 @@ void read_entries(const Hdf5Input& file, const fs::path& path, Table& table) {
   table.sw_loss = file.values<float>("sw_loss", shape);
   table.status = read_status(file, path, shape);
   table.iterations = file.values<std::uint16_t>("iterations", shape);
+  if (!is_folded(table))
+    return;
+  table.fold = file.values<float>("fold", fold_shape(table.grid));
+  const std::vector<std::size_t> creases = file.shape("creases");
+  if (creases.size() != 1 || creases[0] < 1 || creases[0] > most_creases)
+    throw InputError(fmt::format("{}: dataset creases must be a list of 1 to {} numbers",
+                                 path.string(), most_creases));
+  table.creases = file.values<double>("creases", creases);
 }
 
-std::optional<Field> read_field(const Hdf5Input& file, const fs::path& path, const Grid& grid) {
+std::optional<Field> read_field(const Hdf5Input& file, const fs::path& path, const Table& table) {
   if (!file.has_attribute(root, field_attribute))
     return std::nullopt;
-  if (const std::string basis = file.text(root, field_attribute); basis != field_basis_name)
+  const std::string basis = file.text(root, field_attribute);
+  if (const std::string_view allowed = basis_name(is_folded(table)); basis != allowed)
     throw InputError(fmt::format("{}: attribute {} is \"{}\"; allowed: \"{}\"", path.string(),
-                                 field_attribute, basis, field_basis_name));
+                                 field_attribute, basis, allowed));
   const std::vector<std::size_t> shape = file.shape("field/coefficients");
   const std::size_t count = shape.size() == 1 ? shape[0] : 0;
   const auto rows = file.values<std::uint8_t>("field/terms", {count, term_bytes});
-  Field field{
-      grid.alpha_min, grid.model, {}, {}, {}, file.values<float>("field/coefficients", {count})};
+  Field field{table.grid.alpha_min,
+              table.grid.model,
+              {},
+              table.creases,
+              {},
+              file.values<float>("field/coefficients", {count})};
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* const row = rows.data() + i * term_bytes;
     if (row[0] >= field_part_count)
@@ -238,7 +261,7 @@ Table read_hdf5_unguarded(const fs::path& path) {
   table.grid = read_grid(file, path);
   read_attributes(file, path, table);
   read_entries(file, path, table);
-  table.field = read_field(file, path, table.grid);
+  table.field = read_field(file, path, table);
   require_consistent(table, path);
   return table;
 }
@@ -248,6 +271,7 @@ Format hdf5_format() {
           .sets = {{".h5"}},
           .asked = &OutputSettings::hdf5,
           .entry_bytes = 12 * 4 + 3,  // matrix, albedos, loss; status, steps
+          .of_folded = true,
           .read = [](const TableFiles& files, const ReadAs&) { return read_hdf5(files.front()); },
           .add = [](platform::FileSet& set, const Table& table, const TableFiles& files,
                     const WriteOptions&) { add_hdf5(set, table, files.front()); }};

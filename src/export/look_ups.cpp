@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "core/angle.h"
 #include "core/range.h"
@@ -20,9 +21,14 @@
 namespace ltc {
 namespace {
 
-constexpr std::array columns = {"alpha_x", "alpha_y", "theta", "phi",       "m00",
-                                "m01",     "m02",     "m10",   "m11",       "m12",
-                                "m20",     "m21",     "m22",   "amplitude", "fresnel"};
+// The last two of folded lobes alone.
+constexpr std::array<std::string_view, 17> columns = {
+    "alpha_x", "alpha_y", "theta", "phi", "m00", "m01",       "m02",     "m10", "m11",
+    "m12",     "m20",     "m21",   "m22", "amplitude", "fresnel", "k",   "g"};
+
+std::size_t column_count(const std::vector<LookUp>& found) {
+  return columns.size() - (found.empty() || found.front().creases.empty() ? 2 : 0);
+}
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r\"";
@@ -130,6 +136,8 @@ std::array<float, columns.size()> values_of(const Lobe& lobe, const LookUp& foun
         static_cast<float>(found.matrix(entry / 3, entry % 3));
   values[13] = static_cast<float>(found.amplitude);
   values[14] = static_cast<float>(found.fresnel);
+  values[15] = static_cast<float>(found.fold.k);
+  values[16] = static_cast<float>(found.fold.g);
   return values;
 }
 
@@ -141,9 +149,12 @@ std::vector<Lobe> parse_queries(std::string_view text, const std::filesystem::pa
 }
 
 std::string look_ups_csv(const std::vector<Lobe>& queries, const std::vector<LookUp>& found) {
-  std::string text = fmt::format("{}\n", fmt::join(columns, ","));
-  for (std::size_t i = 0; i < queries.size(); ++i)
-    text += fmt::format("{}\n", fmt::join(values_of(queries[i], found[i]), ","));
+  const std::size_t count = column_count(found);
+  std::string text = fmt::format("{}\n", fmt::join(std::span(columns).first(count), ","));
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const auto values = values_of(queries[i], found[i]);
+    text += fmt::format("{}\n", fmt::join(std::span(values).first(count), ","));
+  }
   return text;
 }
 
@@ -152,7 +163,7 @@ std::string look_ups_json(const std::vector<Lobe>& queries, const std::vector<Lo
   for (std::size_t i = 0; i < queries.size(); ++i) {
     nlohmann::ordered_json row;
     const auto values = values_of(queries[i], found[i]);
-    for (std::size_t column = 0; column < columns.size(); ++column)
+    for (std::size_t column = 0; column < column_count(found); ++column)
       row[columns[column]] = values[column];  // null where there is none
     rows.push_back(row);
   }
@@ -160,10 +171,11 @@ std::string look_ups_json(const std::vector<Lobe>& queries, const std::vector<Lo
 }
 
 std::string look_ups_npy(const std::vector<Lobe>& queries, const std::vector<LookUp>& found) {
-  std::string bytes = npy_header(std::array{queries.size(), columns.size()});
+  const std::size_t count = column_count(found);
+  std::string bytes = npy_header(std::array{queries.size(), count});
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const auto values = values_of(queries[i], found[i]);
-    bytes.append(reinterpret_cast<const char*>(values.data()), sizeof values);
+    bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof values.front());
   }
   return bytes;
 }

@@ -36,12 +36,7 @@ Table read_table(const std::filesystem::path& path, const ReadAs& as) {
   if (!is_read(*set.format))
     throw InputError(fmt::format("{}: files of {} are only written; allowed: {}", path.string(),
                                  set.format->name, endings_text(is_read)));
-  Table table = set.format->read(set.files, as);
-  if (is_folded(table) && !as.folded)
-    throw InputError(fmt::format(
-        "{}: a folded field; expected a table, or a field without a fold (docs/folded.md)",
-        path.string()));
-  return table;
+  return set.format->read(set.files, as);
 }
 
 void write_table(const Table& table, const std::filesystem::path& path,
@@ -55,18 +50,18 @@ void write_table(const Table& table, const std::filesystem::path& path,
 void add_table(platform::FileSet& set, const Table& table, const Format& format,
                const std::filesystem::path& prefix, const WriteOptions& options) {
   const TextureLayout layout = resolved(options.layout, table.grid, table.storage);
-  const TableFiles files = format.files(prefix, layout);
+  const TableFiles files = format.files(prefix, table.grid, table.storage, layout);
   require_consistent(table, files.front());
   if (const std::string why = format.why_not(table.grid, table.storage, layout); !why.empty())
     throw InputError(fmt::format("{}: {} cannot hold this table: it {}", files.front().string(),
                                  format.name, why));
   if (is_folded(table) && !format.of_folded)
     throw InputError(
-        fmt::format("{}: {} cannot hold a folded field", files.front().string(), format.name));
-  if (is_folded(table) && format.of_one_pair && table.field->creases.size() > 1)
+        fmt::format("{}: {} cannot hold folded lobes", files.front().string(), format.name));
+  if (is_folded(table) && format.of_one_pair && table.creases.size() > 1)
     throw InputError(fmt::format(
         "{}: {} holds folded lobes with one pair of creases, and these have pairs at {}",
-        files.front().string(), format.name, fmt::join(table.field->creases, ", ")));
+        files.front().string(), format.name, fmt::join(table.creases, ", ")));
   if (format.of_fields && !table.field)
     throw InputError(fmt::format("{}: {} holds fields, and this is a table of nodes",
                                  files.front().string(), format.name));
@@ -97,9 +92,7 @@ std::string config_text(const std::filesystem::path& file) {
   const Format* const format = find_format(file);
   const bool has_config =
       format && (keeps_fits(*format) || (format->of_fields && is_read(*format)));
-  ReadAs any;
-  any.folded = true;
-  return has_config ? read_table(file, any).config : read_config(file);
+  return has_config ? read_table(file).config : read_config(file);
 }
 
 }  // namespace ltc

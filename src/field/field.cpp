@@ -62,6 +62,12 @@ bool is_allowed(const FieldTerm& term) {
   return term.order % 2 == 0 && (term.lambda > 0 || (is_of_albedo(term.part) && term.order == 0));
 }
 
+double width_across(const Lobe& folded) {
+  const double alpha = folded.alpha_x, lambda = folded.alpha_y / alpha;
+  const double least = field_least_width * alpha;
+  return alpha * std::sqrt(lambda * lambda + least * least * (1 - lambda * lambda));
+}
+
 FieldVariables::FieldVariables(const Lobe& folded, double alpha_min) : lobe(folded) {
   lobe.alpha_x = std::max(lobe.alpha_x, alpha_min);
   lobe.alpha_y = std::max(lobe.alpha_y, alpha_min);
@@ -70,8 +76,7 @@ FieldVariables::FieldVariables(const Lobe& folded, double alpha_min) : lobe(fold
   const Eigen::Vector3d v = lobe.omega_v();
   sin_theta = std::sin(lobe.theta_radians);
   cos_theta = v.z();
-  const double least = field_least_width * alpha;
-  width_y = alpha * std::sqrt(lambda * lambda + least * least * (1 - lambda * lambda));
+  width_y = width_across(lobe);
   const double length = Eigen::Vector3d(alpha * v.x(), width_y * v.y(), v.z()).norm();
   radius = std::sqrt(length);
   angle = cos_theta / length;
@@ -164,6 +169,13 @@ double most_fold(const Creases& creases) {
   return 0.95 / sum_of(creases);
 }
 
+Fold fold_of(double kappa, double gamma, const Lobe& folded, const Creases& creases) {
+  if (creases.empty())
+    return {};
+  return {folded.alpha_x * folded.alpha_x * kappa / width_across(folded),
+          std::min(gamma, most_fold(creases))};
+}
+
 Eigen::Matrix3d field_frame_matrix(const double* values, const FieldVariables& at) {
   const FieldDirections directions(at);
   Eigen::Matrix3d t = directions.constant;
@@ -185,11 +197,9 @@ FieldLobe lobe_of(const Field& field, const Lobe& folded) {
   const Eigen::Matrix3d matrix = mirror_rotation(at.lobe.omega_v()) *
                                  field_frame_matrix(values.data(), at) *
                                  Eigen::Vector3d(at.lobe.alpha_x, at.lobe.alpha_y, 1).asDiagonal();
-  Fold bend;
-  if (!field.creases.empty())
-    bend = {at.alpha * at.alpha * values[index(FieldPart::kappa)] / at.width_y,
-            std::min(values[index(FieldPart::gamma)], most_fold(field.creases))};
-  return {matrix, amplitude, amplitude * std::pow(1 - x, 5), bend};
+  const double kappa = values[index(FieldPart::kappa)];
+  const Fold bend = fold_of(kappa, values[index(FieldPart::gamma)], at.lobe, field.creases);
+  return {matrix, amplitude, amplitude * std::pow(1 - x, 5), bend, kappa, bend.g};
 }
 
 }  // namespace ltc

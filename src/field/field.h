@@ -122,6 +122,9 @@ struct FieldTerm {
 // The 0.1 of s_y and the 0.8 of g.
 inline constexpr double field_least_width = 0.1, field_own_factor = 0.8;
 
+// s_y of a folded lobe, alpha_x >= alpha_y.
+double width_across(const Lobe& folded);
+
 // Degrees and orders are at most this.
 inline constexpr std::size_t field_most_degree = 20;
 
@@ -201,6 +204,7 @@ struct FieldLobe {
   Eigen::Matrix3d matrix;
   double amplitude, fresnel;
   Fold fold = {};
+  double kappa = 0, gamma = 0;  // what the fold is made from, gamma as bounded
 };
 FieldLobe lobe_of(const Field& field, const Lobe& folded);
 // L T diag(1, s_y / alpha_y, 1), of M = Q P diag(alpha_x, alpha_y, 1) (fit/lobe_frame.h), of the
@@ -209,5 +213,8 @@ Eigen::Matrix3d field_frame_matrix(const double* values, const FieldVariables& a
 
 // The largest g of these creases.
 double most_fold(const Creases& creases);
+
+// The fold of kappa and gamma, as above; none of no creases.
+Fold fold_of(double kappa, double gamma, const Lobe& folded, const Creases& creases);
 
 }  // namespace ltc

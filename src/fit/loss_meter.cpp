@@ -4,11 +4,14 @@
 
 namespace ltc {
 
-LossMeter::LossMeter(std::size_t bins)
+LossMeter::LossMeter(std::size_t bins, const Creases& creases)
     : bins_(bins),
       cosines_(make_cosine_set(2048)),
       lattice_(make_target_lattice(4096, 0.3)),
-      directions_(in_float(fibonacci_directions(32))) {}
+      directions_(in_float(fibonacci_directions(32))) {
+  if (!creases.empty())
+    u_ = crease_distances(cosines_, creases);
+}
 
 void LossMeter::set_target(const LobeFrame& frame, FitWorkspace& workspace) const {
   sample_weighted_target(frame, lattice_, workspace.target);
@@ -21,6 +24,18 @@ double LossMeter::loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matr
   ModelValue value;
   evaluate_model({frame, frame_matrix, cosines_, quantiles, 1, quantiles.spread()}, workspace.model,
                  value);
+  return value.loss;
+}
+
+double LossMeter::loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
+                       const Fold& fold, FitWorkspace& workspace) const {
+  TargetQuantiles& quantiles = workspace.quantiles;
+  quantiles.build(workspace.target, directions_, bins_, workspace.model.xi, workspace.model.bins);
+  const Eigen::Vector3d q =
+      frame_matrix * Eigen::Vector3d(0, frame.lobe.alpha_y * fold.k, fold.g);
+  FoldedModelValue value;
+  evaluate_model({frame, frame_matrix, cosines_, quantiles, 1, quantiles.spread()}, {q, u_},
+                 workspace.model, value);
   return value.loss;
 }
 

@@ -11,13 +11,14 @@
 #include <vector>
 
 #include "fit/workspace.h"
+#include "ltc/folded.h"
 
 namespace ltc {
 
 class LossMeter {
  public:
   // 2048 cosine samples, 4096 of the lobe, 32 directions.
-  explicit LossMeter(std::size_t bins);
+  explicit LossMeter(std::size_t bins, const Creases& creases = {});
 
   // The workspace's target of a lobe, to be set before loss().
   void set_target(const LobeFrame& frame, FitWorkspace& workspace) const;
@@ -25,10 +26,14 @@ class LossMeter {
   // Of the LTC of a frame matrix P (lobe_frame.h).
   double loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
               FitWorkspace& workspace) const;
+  // The same folded along the meter's creases, at least one.
+  double loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix, const Fold& fold,
+              FitWorkspace& workspace) const;
 
  private:
   std::size_t bins_;
   CosineSet cosines_;
+  AlignedFloats u_;  // of the cosines
   TargetLattice lattice_;
   std::vector<Eigen::Vector3f> directions_;
 };

@@ -23,6 +23,14 @@ CosineSet make_cosine_set(std::size_t count, double shift) {
   return set;
 }
 
+AlignedFloats crease_distances(const CosineSet& cosines, const Creases& creases) {
+  AlignedFloats u(cosines.size());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] = static_cast<float>(
+        crease_distance({cosines.x[i], cosines.y[i], cosines.z[i]}, creases));
+  return u;
+}
+
 std::size_t CosineSet::total() const {
   std::size_t sum = multiplicity.empty() ? size() : 0;
   for (const std::int32_t count : multiplicity)

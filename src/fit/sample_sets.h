@@ -14,6 +14,7 @@
 
 #include "brdf/lattice.h"
 #include "core/aligned.h"
+#include "ltc/folded.h"
 
 namespace ltc {
 
@@ -28,6 +29,9 @@ struct CosineSet {
 // `count` (rounded up to a multiple of 16) samples of a golden-ratio lattice; `shift` turns the
 // lattice by that share of a circle: sets with different shifts share no samples.
 CosineSet make_cosine_set(std::size_t count, double shift = 0.0);
+
+// u of every sample (ltc/folded.h).
+AlignedFloats crease_distances(const CosineSet& cosines, const Creases& creases);
 
 // The same on a graded lattice: point i of n counts 2 i + 1 of n^2.
 CosineSet make_graded_cosine_set(std::size_t count);

@@ -161,14 +161,13 @@ void AreaLightJudge::draw_quads(const LobeSampler& sampler, std::uint64_t draw) 
   }
 }
 
-AreaLightError AreaLightJudge::error(const Eigen::Matrix3d& matrix, std::optional<double> amplitude,
-                                     const Fold& fold, const Creases& creases) const {
+AreaLightError AreaLightJudge::error(const LtcLobe& ltc, std::optional<double> amplitude) const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   AreaLightError error{nan, nan, standard_error_};
   const double relative_amplitude = amplitude ? *amplitude / amplitude_ : 1.0;
-  if (!is_invertible(matrix) || !std::isfinite(relative_amplitude))
+  if (!is_invertible(ltc.matrix) || !std::isfinite(relative_amplitude))
     return error;
-  const FoldedCosine cosine(matrix, fold, creases);
+  const FoldedCosine cosine(ltc);
   error.mean_absolute = error.largest = 0;
   for (std::size_t i = 0; i < quads_.size(); ++i) {
     const double fraction = cosine.integrate_polygon(clip_to_upper_hemisphere(quads_[i]));

@@ -46,13 +46,11 @@ class AreaLightJudge {
   // cancel.
   void set_lobe(const Lobe& lobe, std::uint64_t draw = 0);
 
-  // The error of the LTC of M, integrated exactly (equation 11 of Heitz et al. 2016), times
+  // The error of an LTC, folded or not, integrated exactly (equation 11 of Heitz et al. 2016), times
   // `amplitude` (the lobe's own if empty, so that only the lobe's shape counts). Light below the
   // horizon is cut off, as GGX reflects none of it. NaN for a matrix or an amplitude that is not
   // finite, or a matrix without an inverse.
-  AreaLightError error(const Eigen::Matrix3d& matrix,
-                       std::optional<double> amplitude = std::nullopt, const Fold& fold = {},
-                       const Creases& creases = {}) const;
+  AreaLightError error(const LtcLobe& ltc, std::optional<double> amplitude = std::nullopt) const;
 
   // What is judged against: corners of the rectangles, relative to the shaded point in the tangent
   // frame, and the share of the lobe's light that comes from each.

@@ -17,11 +17,11 @@
 namespace ltc {
 namespace {
 
-// All that an entry's figures depend on, bit by bit: alpha_x, alpha_y, the view direction and both
-// matrices.
-using LobeBits = std::array<std::uint64_t, 23>;
+// All that an entry's figures depend on, bit by bit: alpha_x, alpha_y, the view direction, both
+// matrices and folds.
+using LobeBits = std::array<std::uint64_t, 27>;
 
-LobeBits bits_of(const Lobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+LobeBits bits_of(const Lobe& lobe, const LtcLobe& a, const LtcLobe& b) {
   LobeBits bits;
   auto next = bits.begin();
   const auto add = [&](double value) { *next++ = std::bit_cast<std::uint64_t>(value); };
@@ -30,8 +30,12 @@ LobeBits bits_of(const Lobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix
   for (const double value : lobe.omega_v())
     add(value);
   for (int i = 0; i < 9; ++i) {
-    add(a(i));
-    add(b(i));
+    add(a.matrix(i));
+    add(b.matrix(i));
+  }
+  for (const LtcLobe* ltc : {&a, &b}) {
+    add(ltc->fold.k);
+    add(ltc->fold.g);
   }
   return bits;
 }
@@ -42,7 +46,7 @@ std::vector<std::size_t> first_of_same(const Table& a, const Table& b) {
   std::vector<std::size_t> result(a.grid.size());
   for (std::size_t flat = 0; flat < result.size(); ++flat)
     result[flat] =
-        first.try_emplace(bits_of(a.grid.lobe(flat), a.matrix_at(flat), b.matrix_at(flat)), flat)
+        first.try_emplace(bits_of(a.grid.lobe(flat), a.ltc_at(flat), b.ltc_at(flat)), flat)
             .first->second;
   return result;
 }
@@ -53,14 +57,17 @@ double difference(float a, float b) {
 
 }  // namespace
 
-EntryComparison compare_lobes(const Lobe& lobe, const Eigen::Matrix3d& a,
-                              const Eigen::Matrix3d& b, HeldOutJudge& judge) {
-  const bool both = a.allFinite() && b.allFinite();
-  const Eigen::Matrix3d nearest_b = both ? align_to(a, b) : b;
+EntryComparison compare_lobes(const Lobe& lobe, const LtcLobe& a, const LtcLobe& b,
+                              HeldOutJudge& judge) {
+  const bool both = a.matrix.allFinite() && b.matrix.allFinite();
+  LtcLobe nearest_b = b;
+  if (both && b.creases.empty())
+    nearest_b.matrix = align_to(a.matrix, b.matrix);
   const PairJudgement judgement = judge.judge_pair(lobe, a, nearest_b);
   EntryComparison entry{judgement.loss_a, judgement.loss_b, judgement.spread, judgement.distance};
   if (both)
-    entry.matrix_difference = (a / a.col(2).norm() - nearest_b / nearest_b.col(2).norm())
+    entry.matrix_difference = (a.matrix / a.matrix.col(2).norm() -
+                               nearest_b.matrix / nearest_b.matrix.col(2).norm())
                                   .cwiseAbs()
                                   .maxCoeff<Eigen::PropagateNaN>();
   return entry;
@@ -101,7 +108,7 @@ std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
       [&](std::size_t i, HeldOutJudge& judge) {
         const std::size_t flat = to_judge[i];
         entries[flat] =
-            compare_lobes(a.grid.lobe(flat), a.matrix_at(flat), b.matrix_at(flat), judge);
+            compare_lobes(a.grid.lobe(flat), a.ltc_at(flat), b.ltc_at(flat), judge);
       });
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
     entries[flat] = entries[first[flat]];

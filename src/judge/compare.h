@@ -32,7 +32,9 @@ struct EntryComparison {
   double spread = 0;  // of the GGX lobe, the scale that losses are judged by
   // Between the two LTC, by the same samples, paired: 0 for two matrices of one lobe.
   double distance = not_compared;
-  double matrix_difference = not_compared;  // largest of an entry, third columns of unit length
+  // Largest of an entry, third columns of unit length; of a folded lobe's matrix as it stands, for
+  // creases turn with R.
+  double matrix_difference = not_compared;
   double amplitude_difference = not_compared, fresnel_difference = not_compared;  // absolute
 
   double ratio() const { return loss_a / loss_b; }
@@ -40,8 +42,8 @@ struct EntryComparison {
 };
 
 // What the matrices of A and B are to a lobe and to each other; no terms.
-EntryComparison compare_lobes(const Lobe& lobe, const Eigen::Matrix3d& a,
-                              const Eigen::Matrix3d& b, HeldOutJudge& judge);
+EntryComparison compare_lobes(const Lobe& lobe, const LtcLobe& a, const LtcLobe& b,
+                              HeldOutJudge& judge);
 
 // Throws InputError, naming the difference, unless the two grids are the same.
 void require_same_grid(const Grid& a, const Grid& b);

@@ -29,11 +29,18 @@ std::optional<std::size_t> worst(const std::vector<double>& errors, Allowed&& al
 
 std::vector<double> half_precision_errors(const Table& table, const std::vector<bool>& judged,
                                           const RunContext& run) {
-  const auto seen = [&](std::size_t flat, const LobeFrame& frame) -> Eigen::Matrix3d {
+  const auto seen = [&](std::size_t flat, const LobeFrame& frame) -> LtcLobe {
     const Eigen::Matrix3d exact = table.stored_at(flat), kept = rounded(exact, Precision::half);
     if (!(kept.determinant() * exact.determinant() > 0))
       return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
-    return matrix_from_stored(table.storage, kept, frame.lobe);
+    LtcLobe lobe = matrix_from_stored(table.storage, kept, frame.lobe);
+    if (is_folded(table)) {
+      lobe.fold = fold_of(rounded(table.fold[2 * flat], Precision::half),
+                          rounded(table.fold[2 * flat + 1], Precision::half), frame.lobe,
+                          table.creases);
+      lobe.creases = table.creases;
+    }
+    return lobe;
   };
   return inversion_errors(table, judged, "half precision", run, seen);
 }

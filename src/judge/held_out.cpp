@@ -58,17 +58,16 @@ void HeldOutJudge::sort_target(const Eigen::Vector3f& direction, const hwy::Sort
   cells.build(keys_, target_total_, target_largest_);
 }
 
-void HeldOutJudge::transform(const LobeFrame& frame, const Eigen::Matrix3d& matrix,
-                             const Fold& fold, const Creases& creases, Points& points) const {
-  const Eigen::Matrix3d p = frame.from_matrix(matrix) *
+void HeldOutJudge::transform(const LobeFrame& frame, const LtcLobe& ltc, Points& points) const {
+  const Eigen::Matrix3d p = frame.from_matrix(ltc.matrix) *
                             Eigen::Vector3d(frame.lobe.alpha_x, frame.lobe.alpha_y, 1).asDiagonal();
   const double p00 = p(0, 0), p01 = p(0, 1), p02 = p(0, 2);
   const double p10 = p(1, 0), p11 = p(1, 1), p12 = p(1, 2);
   const double p20 = p(2, 0), p21 = p(2, 1), p22 = p(2, 2);
   for (std::size_t i = 0; i < cosines_.size(); ++i) {
     Eigen::Vector3d at(cosines_.x[i], cosines_.y[i], cosines_.z[i]);
-    if (!creases.empty())
-      at = folded(at, fold, creases);
+    if (!ltc.creases.empty())
+      at = folded(at, ltc.fold, ltc.creases);
     const double x = at.x(), y = at.y(), z = at.z();
     const double fx = p00 * x + p01 * y + p02 * z;
     const double fy = p10 * x + p11 * y + p12 * z;
@@ -95,10 +94,10 @@ void HeldOutJudge::set_lobe(const Lobe& lobe) {
   spread_ /= static_cast<double>(directions_.size());
 }
 
-double HeldOutJudge::loss(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases) {
-  if (!matrix.allFinite())
+double HeldOutJudge::loss(const LtcLobe& ltc) {
+  if (!ltc.matrix.allFinite())
     return none;
-  transform(*frame_, matrix, fold, creases, points_);
+  transform(*frame_, ltc, points_);
   double distance = 0;
   const hwy::Sorter sorter;
   for (std::size_t k = 0; k < directions_.size(); ++k) {
@@ -109,16 +108,14 @@ double HeldOutJudge::loss(const Eigen::Matrix3d& matrix, const Fold& fold, const
   return distance / static_cast<double>(directions_.size());
 }
 
-PairJudgement HeldOutJudge::judge_pair(const Lobe& lobe, const Eigen::Matrix3d& a,
-                                       const Eigen::Matrix3d& b, const Fold& fold,
-                                       const Creases& creases) {
+PairJudgement HeldOutJudge::judge_pair(const Lobe& lobe, const LtcLobe& a, const LtcLobe& b) {
   const LobeFrame frame(lobe);
   sample_target(frame);
-  const bool has_a = a.allFinite(), has_b = b.allFinite();
+  const bool has_a = a.matrix.allFinite(), has_b = b.matrix.allFinite();
   if (has_a)
-    transform(frame, a, fold, creases, points_);
+    transform(frame, a, points_);
   if (has_b)
-    transform(frame, b, {}, {}, points_b_);
+    transform(frame, b, points_b_);
   PairJudgement sum{has_a ? 0 : none, has_b ? 0 : none, has_a && has_b ? 0 : none, 0};
   const hwy::Sorter sorter;
   for (const Eigen::Vector3d& direction : directions_) {

@@ -41,19 +41,17 @@ class HeldOutJudge {
   // Sets the lobe that loss and spread judge against; before either.
   void set_lobe(const Lobe& lobe);
 
-  // Equation (9) of Aakash et al. 2022 between the lobe and the LTC of M, folded or not
-  // (ltc/folded.h); NaN for a matrix that is not finite.
-  double loss(const Eigen::Matrix3d& matrix, const Fold& fold = {}, const Creases& creases = {});
+  // Equation (9) of Aakash et al. 2022 between the lobe and an LTC, folded or not; NaN for a matrix
+  // that is not finite.
+  double loss(const LtcLobe& ltc);
 
   // Mean absolute deviation of the lobe's projections from their median, averaged over the
   // directions: the distance to the best single direction. Losses are judged relative to it.
   double spread() const { return spread_; }
 
-  // The same figures for two matrices at once, and the distance between their LTC. Independent of
+  // The same figures for two of them at once, and the distance between their LTC. Independent of
   // set_lobe, and keeps nothing: sets are sorted one direction at a time and stay in the cache.
-  // The first may be folded.
-  PairJudgement judge_pair(const Lobe& lobe, const Eigen::Matrix3d& a, const Eigen::Matrix3d& b,
-                           const Fold& fold = {}, const Creases& creases = {});
+  PairJudgement judge_pair(const Lobe& lobe, const LtcLobe& a, const LtcLobe& b);
 
  private:
   struct Points {  // as offsets from the mirror direction, in its frame
@@ -63,8 +61,7 @@ class HeldOutJudge {
   // The lobe's samples along one direction.
   void sort_target(const Eigen::Vector3f& direction, const hwy::Sorter& sorter,
                    QuantileCells& cells);
-  void transform(const LobeFrame& frame, const Eigen::Matrix3d& matrix, const Fold& fold,
-                 const Creases& creases, Points& points) const;
+  void transform(const LobeFrame& frame, const LtcLobe& ltc, Points& points) const;
 
   CosineSet cosines_;
   TargetLattice lattice_;

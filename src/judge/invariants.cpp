@@ -135,6 +135,8 @@ class Checks {
       double not_finite = 0;
       for (std::size_t i = 9 * flat; i < 9 * flat + 9; ++i)
         not_finite += count(table_.stored[i]);
+      if (is_folded(table_))
+        not_finite += count(table_.fold[2 * flat]) + count(table_.fold[2 * flat + 1]);
       if (contents_.albedo)
         not_finite += count(table_.amplitude[flat]) + count(table_.fresnel[flat]);
       if (contents_.loss)
@@ -158,9 +160,13 @@ class Checks {
   InvariantResult zeros() const {
     return judged("zeros of equation 16", limits_.zero, finite_, [&](std::size_t flat) {
       const Lobe lobe = lobe_at(flat);
-      return symmetry_zeros(lobe.theta_radians, lobe.phi_radians)
-          .select(table_.stored_at(flat).cwiseAbs(), 0.0)
-          .maxCoeff();
+      const double largest = symmetry_zeros(lobe.theta_radians, lobe.phi_radians)
+                                 .select(table_.stored_at(flat).cwiseAbs(), 0.0)
+                                 .maxCoeff();
+      // Symmetric in y, it bends to neither side.
+      return is_folded(table_) && looks_along_x(lobe.theta_radians, lobe.phi_radians)
+                 ? std::max(largest, std::abs(static_cast<double>(table_.fold[2 * flat])))
+                 : largest;
     });
   }
 
@@ -203,21 +209,22 @@ class Checks {
   }
 
   InvariantResult inverse() const {
-    const auto seen = [&](std::size_t flat, const LobeFrame& frame) {
-      return seen_by_shader(table_.storage, table_.stored_at(flat), frame, InverseOrder::factored,
-                            Precision::single, Precision::single);
+    const auto seen = [&](std::size_t flat, const LobeFrame& frame) -> LtcLobe {
+      return {seen_by_shader(table_.storage, table_.stored_at(flat), frame, InverseOrder::factored,
+                             Precision::single, Precision::single),
+              table_.fold_at(flat), table_.creases};
     };
     return judged("float inverse", limits_.inverse_error, invertible_,
                   inversion_errors(table_, invertible_, "inverses", run_, seen));
   }
 
-  // Of folded fields alone.
+  // Of folded lobes alone.
   InvariantResult one_to_one() const {
     constexpr bool at_most = false;
-    const double sum = sum_of(creases_of(table_));
+    const double sum = sum_of(table_.creases);
     return judged(
         "fold one to one", 0, finite_,
-        [&](std::size_t flat) { return 1 - sum * fold_at(table_, flat).g; }, at_most);
+        [&](std::size_t flat) { return 1 - sum * table_.fold_at(flat).g; }, at_most);
   }
 
   InvariantResult below_horizon() const {
@@ -227,7 +234,7 @@ class Checks {
     for (std::size_t flat = 0; flat < invertible_.size(); ++flat)
       if (invertible_[flat])
         measurement.values[flat] =
-            share_below_horizon(table_.matrix_at(flat), fold_at(table_, flat), creases_of(table_));
+            share_below_horizon(table_.ltc_at(flat));
     return judge(table_.grid, measurement);
   }
 
@@ -266,8 +273,6 @@ class Checks {
   }
 
   InvariantResult neighbours() {
-    if (is_folded(table_))
-      return not_checked("neighbours", limits_.neighbour_excess, more_than_matrix);
     std::vector<bool> with_neighbour = invertible_;
     for (std::size_t flat = 0; flat < with_neighbour.size(); ++flat)
       if (std::isnan(lobes().neighbour_excess[flat]))
@@ -297,6 +302,9 @@ class Checks {
       ++node.phi;
     const std::size_t first = table_.grid.flat(node);
     double difference = (table_.stored_at(flat) - table_.stored_at(first)).cwiseAbs().maxCoeff();
+    if (is_folded(table_))
+      difference = std::max(difference, std::abs(static_cast<double>(table_.fold[2 * flat + 1]) -
+                                                 table_.fold[2 * first + 1]));
     if (contents_.albedo)
       for (const std::vector<float>* values : {&table_.amplitude, &table_.fresnel})
         difference =

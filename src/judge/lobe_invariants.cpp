@@ -80,7 +80,7 @@ class LobeMeter {
     float* const ggx = &layer.ggx[i * prototype_.size()];
     float* const ltc = &layer.ltc[i * prototype_.size()];
     quantiles.of_ggx(frame, ggx);
-    quantiles.of_ltc(frame, table_.matrix_at(flat), ltc);
+    quantiles.of_ltc(frame, table_.ltc_at(flat), ltc);
     layer.spread[i] = quantiles.spread(ggx);
     return quantiles.distance(ggx, ltc);
   }

@@ -59,12 +59,14 @@ void LobeQuantiles::of_ggx(const LobeFrame& frame, float* quantiles) {
   }
 }
 
-void LobeQuantiles::of_ltc(const LobeFrame& frame, const Eigen::Matrix3d& matrix,
-                           float* quantiles) {
-  const Eigen::Matrix3d p = frame.rotation.transpose() * matrix;
+void LobeQuantiles::of_ltc(const LobeFrame& frame, const LtcLobe& ltc, float* quantiles) {
+  const Eigen::Matrix3d p = frame.rotation.transpose() * ltc.matrix;
   const std::size_t count = cosines_.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d f = p * Eigen::Vector3d(cosines_.x[i], cosines_.y[i], cosines_.z[i]);
+    Eigen::Vector3d at(cosines_.x[i], cosines_.y[i], cosines_.z[i]);
+    if (!ltc.creases.empty())
+      at = folded(at, ltc.fold, ltc.creases);
+    const Eigen::Vector3d f = p * at;
     const double lateral = f.x() * f.x() + f.y() * f.y(),
                  length = std::sqrt(lateral + f.z() * f.z());
     gx_[i] = static_cast<float>(f.x() / length);

@@ -12,6 +12,7 @@
 #include "fit/lobe_frame.h"
 #include "fit/quantile_model.h"
 #include "fit/sample_sets.h"
+#include "ltc/folded.h"
 
 namespace ltc {
 
@@ -32,10 +33,10 @@ class LobeQuantiles {
 
   std::size_t size() const { return directions_.size() * blocks_; }
 
-  // Fills `quantiles`, size() floats, with those of the GGX lobe; and of the LTC of M, seen in that
-  // lobe's frame. M must be finite.
+  // Fills `quantiles`, size() floats, with those of the GGX lobe; and of an LTC, folded or not, seen
+  // in that lobe's frame. Its M must be finite.
   void of_ggx(const LobeFrame& frame, float* quantiles);
-  void of_ltc(const LobeFrame& frame, const Eigen::Matrix3d& matrix, float* quantiles);
+  void of_ltc(const LobeFrame& frame, const LtcLobe& ltc, float* quantiles);
 
   // The distance of two lists; and the mean absolute deviation of a list, tails included, from the
   // median of each direction.

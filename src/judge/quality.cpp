@@ -46,9 +46,8 @@ HeldOutJudge node_judge(const QualitySettings& settings, std::size_t flat) {
 
 // By judge_pair, which holds one direction at a time: what set_lobe would keep of all of them is
 // megabytes, and asking the system for them anew for every lobe takes as long as the judging.
-double relative_loss(HeldOutJudge judge, const Lobe& lobe, const Eigen::Matrix3d& matrix,
-                     const Fold& fold = {}, const Creases& creases = {}) {
-  const PairJudgement judgement = judge.judge_pair(lobe, matrix, matrix, fold, creases);
+double relative_loss(HeldOutJudge judge, const Lobe& lobe, const LtcLobe& ltc) {
+  const PairJudgement judgement = judge.judge_pair(lobe, ltc, ltc);
   return judgement.loss_a / judgement.spread;
 }
 
@@ -64,19 +63,16 @@ QueryQuality judge_query(const Table& table, const QualitySettings& settings,
     return left_out(state);
   area_light.set_lobe(floor.lobe, query);
   return {QueryState::judged,
-          relative_loss(query_judge(settings, query), floor.lobe, found.matrix, found.fold,
-                        found.creases),
-          area_light.error(found.matrix, std::nullopt, found.fold, found.creases),
-          area_light.error(found.matrix, found.amplitude, found.fold, found.creases),
-          share_below_horizon(found.matrix, found.fold, found.creases)};
+          relative_loss(query_judge(settings, query), floor.lobe, found.ltc()),
+          area_light.error(found.ltc()), area_light.error(found.ltc(), found.amplitude),
+          share_below_horizon(found.ltc())};
 }
 
 Statistics nodes_below_horizon(const Table& table) {
   std::vector<double> shares(table.grid.size(), nan);
   for (std::size_t flat = 0; flat < shares.size(); ++flat)
     if (has_values(table.status[flat]))
-      shares[flat] =
-          share_below_horizon(table.matrix_at(flat), fold_at(table, flat), creases_of(table));
+      shares[flat] = share_below_horizon(table.ltc_at(flat));
   return statistics_of(shares);
 }
 
@@ -104,7 +100,7 @@ std::vector<double> judge_nodes(const Table& table, const QualitySettings& setti
   parallel_for_each("judge nodes", nodes.size(), run, [&](std::size_t i) {
     const std::size_t flat = nodes[i];
     losses[flat] = relative_loss(node_judge(settings, flat), table.grid.lobe(flat),
-                                 table.matrix_at(flat), fold_at(table, flat), creases_of(table));
+                                 table.ltc_at(flat));
   });
   return losses;
 }

@@ -32,12 +32,12 @@ QueryComparison compare_query(const Table& a, const Table& b, const Lobe& lobe, 
     return result;
   }
   HeldOutJudge judge = query_judge(settings, query);
-  result.lobes = compare_lobes(lobe, from_a.found.matrix, from_b.found.matrix, judge);
+  result.lobes = compare_lobes(lobe, from_a.found.ltc(), from_b.found.ltc(), judge);
   result.lobes.amplitude_difference = std::abs(from_a.found.amplitude - from_b.found.amplitude);
   result.lobes.fresnel_difference = std::abs(from_a.found.fresnel - from_b.found.fresnel);
   area_light.set_lobe(lobe, query);
   const auto error = [&](const LookUp& found, std::optional<double> amplitude) {
-    return area_light.error(found.matrix, amplitude).mean_absolute;
+    return area_light.error(found.ltc(), amplitude).mean_absolute;
   };
   result.area_light_a = error(from_a.found, std::nullopt);
   result.area_light_b = error(from_b.found, std::nullopt);

@@ -81,10 +81,13 @@ Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& inverse) {
 template <typename Scalar>
 Eigen::Matrix3d seen_in(Storage storage, const Eigen::Matrix3d& stored, const LobeFrame& frame,
                         InverseOrder order) {
-  const Vector3<Scalar> roughness(rounded<Scalar>(frame.lobe.alpha_x),
-                                  rounded<Scalar>(frame.lobe.alpha_y), Scalar(1));
+  const bool scaled = storage != Storage::matrix, turned = is_in_mirror_frame(storage);
+  const Eigen::Vector3d scale =
+      scaled ? scale_of_columns(storage, frame.lobe)
+             : Eigen::Vector3d(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
+  const Vector3<Scalar> roughness(rounded<Scalar>(scale.x()), rounded<Scalar>(scale.y()),
+                                  Scalar(1));
   const Matrix3<Scalar> q = rounded<Scalar>(frame.rotation);
-  const bool scaled = storage != Storage::matrix, turned = storage == Storage::mirror_frame;
   const bool factored = order == InverseOrder::factored;
   Matrix3<Scalar> m = rounded<Scalar>(stored);
   if (storage == Storage::inverse)  // the shader takes it as it is
@@ -110,7 +113,7 @@ Eigen::Matrix3d seen_in(Storage storage, const Eigen::Matrix3d& stored, const Lo
   if (order != InverseOrder::divided && mirrored)
     inverse = -inverse;
   const Eigen::Matrix3d seen = inverse_of(in_double<Scalar>(inverse));
-  return factored ? frame.to_matrix(seen) : seen;
+  return factored ? frame.rotation * seen * scale.asDiagonal() : seen;
 }
 
 }  // namespace
@@ -126,9 +129,8 @@ Eigen::Matrix3d seen_by_shader(Storage storage, const Eigen::Matrix3d& stored,
 InversionMeter::InversionMeter(std::size_t samples, std::size_t directions)
     : quantiles_(samples, directions, 32), exact_(quantiles_.size()), seen_(quantiles_.size()) {}
 
-double InversionMeter::error(const LobeFrame& frame, const Eigen::Matrix3d& exact,
-                             const Eigen::Matrix3d& seen) {
-  if (!seen.allFinite())
+double InversionMeter::error(const LobeFrame& frame, const LtcLobe& exact, const LtcLobe& seen) {
+  if (!seen.matrix.allFinite())
     return std::numeric_limits<double>::infinity();
   quantiles_.of_ltc(frame, exact, exact_.data());
   quantiles_.of_ltc(frame, seen, seen_.data());
@@ -138,7 +140,7 @@ double InversionMeter::error(const LobeFrame& frame, const Eigen::Matrix3d& exac
 std::vector<double> inversion_errors(
     const Table& table, const std::vector<bool>& judged, std::string_view stage,
     const RunContext& run,
-    const std::function<Eigen::Matrix3d(std::size_t, const LobeFrame&)>& seen) {
+    const std::function<LtcLobe(std::size_t, const LobeFrame&)>& seen) {
   constexpr std::size_t samples = 512, directions = 8;
   std::vector<double> errors(table.grid.size(), nan);
   parallel_for_each<InversionMeter>(
@@ -147,7 +149,7 @@ std::vector<double> inversion_errors(
         if (!judged[flat])
           return;
         const LobeFrame frame(table.grid.lobe(flat));
-        errors[flat] = meter.error(frame, table.matrix_at(flat), seen(flat, frame));
+        errors[flat] = meter.error(frame, table.ltc_at(flat), seen(flat, frame));
       });
   return errors;
 }

@@ -52,18 +52,18 @@ class InversionMeter {
 
   // Sliced-Wasserstein distance of the LTCs of two matrices over the spread of the first; infinite
   // where the second is not finite. Finite `exact`.
-  double error(const LobeFrame& frame, const Eigen::Matrix3d& exact, const Eigen::Matrix3d& seen);
+  double error(const LobeFrame& frame, const LtcLobe& exact, const LtcLobe& seen);
 
  private:
   LobeQuantiles quantiles_;
   std::vector<float> exact_, seen_;
 };
 
-// That error at every entry of a table that is `judged`, NaN at the others; `seen` makes the matrix
+// That error at every entry of a table that is `judged`, NaN at the others; `seen` makes the lobe
 // that is seen there. The same bits for any number of threads. Throws Interrupted.
 std::vector<double> inversion_errors(
     const Table& table, const std::vector<bool>& judged, std::string_view stage,
     const RunContext& run,
-    const std::function<Eigen::Matrix3d(std::size_t, const LobeFrame&)>& seen);
+    const std::function<LtcLobe(std::size_t, const LobeFrame&)>& seen);
 
 }  // namespace ltc

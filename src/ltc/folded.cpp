@@ -198,16 +198,15 @@ double FoldedCosine::integrate_polygon(std::span<const Vector3d> vertices) const
   return (inverse_determinant_ < 0 ? -integral : integral) / std::numbers::pi;
 }
 
-double share_below_horizon(const Eigen::Matrix3d& matrix, const Fold& fold,
-                           const Creases& creases) {
-  if (creases.empty())
-    return share_below_horizon(matrix);
-  const FoldedCosine lobe(matrix, fold, creases);
+double share_below_horizon(const LtcLobe& lobe) {
+  if (lobe.creases.empty())
+    return share_below_horizon(lobe.matrix);
+  const FoldedCosine cosine(lobe);
   double sum = 0;
   for (const double x : {1.0, -1.0})
     for (const double y : {1.0, -1.0})
       sum += std::abs(
-          lobe.integrate_polygon(std::array<Vector3d, 3>{{{x, 0, 0}, {0, y, 0}, {0, 0, -1}}}));
+          cosine.integrate_polygon(std::array<Vector3d, 3>{{{x, 0, 0}, {0, y, 0}, {0, 0, -1}}}));
   return sum;
 }
 

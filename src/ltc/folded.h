@@ -46,8 +46,20 @@ double crease_distance(const Eigen::Vector3d& p, const Creases& creases);
 Eigen::Vector3d folded(const Eigen::Vector3d& p, const Fold& fold, const Creases& creases);
 Eigen::Vector3d unfolded(const Eigen::Vector3d& p, const Fold& fold, const Creases& creases);
 
-// The share of a folded lobe below the horizon z = 0, exact: as ltsd.h's of an LTC.
-double share_below_horizon(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases);
+// What makes a lobe: M, known up to a factor, and of a folded one its fold and creases.
+struct LtcLobe {
+  Eigen::Matrix3d matrix;
+  Fold fold = {};
+  Creases creases = {};
+
+  template <typename Derived>
+  LtcLobe(const Eigen::MatrixBase<Derived>& m) : matrix(m) {}
+  LtcLobe(const Eigen::Matrix3d& m, const Fold& f, const Creases& c)
+      : matrix(m), fold(f), creases(c) {}
+};
+
+// The share of a lobe below the horizon z = 0, exact: as ltsd.h's of an LTC.
+double share_below_horizon(const LtcLobe& lobe);
 
 // The distribution of M fold(omega_o)/|M fold(omega_o)|. M is known up to a factor.
 class FoldedCosine {
@@ -56,6 +68,8 @@ class FoldedCosine {
   // finite, negative or not increasing, and a fold that is not one to one.
   FoldedCosine(const Eigen::Matrix3d& matrix, const Fold& fold,
                const Creases& creases = usual_creases);
+  explicit FoldedCosine(const LtcLobe& lobe)
+      : FoldedCosine(lobe.matrix, lobe.fold, lobe.creases) {}
 
   // Density per steradian at a unit direction: max(z, 0)/(pi |p|^4 |det M| (1 - g H)) with p the
   // direction taken back, fold^-1(M^-1 omega), and H of the piece where that is.

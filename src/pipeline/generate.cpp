@@ -25,6 +25,9 @@
 namespace ltc {
 namespace {
 
+// Numbers of the field that a folded table starts from.
+constexpr int folded_start_size = 1024;
+
 void align_all(std::vector<FittedEntry>& entries, const RunContext& run) {
   parallel_for_each("align", entries.size(), run, [&](std::size_t i) {
     if (has_values(entries[i].status))
@@ -83,7 +86,8 @@ MemoryNeeded memory_needed(const Config& config, const std::vector<bool>& needed
   if (config.refine.steps == 0 || config.field.size > 0)
     return memory;
   memory.refinement =
-      refinement_memory_bytes(config.grid, values_behind(needed, context), config.refine);
+      refinement_memory_bytes(config.grid, config.storage, values_behind(needed, context),
+                              config.refine);
   return memory;
 }
 
@@ -97,48 +101,76 @@ std::vector<QueryRange> ranges_served(const Config& config, const std::vector<Qu
   return served;
 }
 
+// What of a node is refined.
+void get_node(const Table& table, std::size_t flat, Eigen::Matrix3d& node) {
+  node = table.stored_at(flat);
+}
+void get_node(const Table& table, std::size_t flat, FoldedNode& node) {
+  node << flattened(table.stored_at(flat)), table.fold[2 * flat], table.fold[2 * flat + 1];
+}
+void set_node(const Eigen::Matrix3d& node, std::size_t flat, Table& table) {
+  table.set_stored(flat, normalise(table.storage, node));
+}
+void set_node(const FoldedNode& node, std::size_t flat, Table& table) {
+  set_node(matrix_of(node), flat, table);
+  table.fold[2 * flat] = static_cast<float>(node[9]);
+  table.fold[2 * flat + 1] = static_cast<float>(node[10]);
+}
+
+// Their losses, of those that are `chosen`, after their matrices were made otherwise than by fits
+// of their own.
+template <typename Node>
+void measure_losses(const std::vector<bool>& chosen, const RunContext& run, Table& table) {
+  std::vector<Node> stored(table.grid.size());
+  for (std::size_t flat = 0; flat < stored.size(); ++flat)
+    get_node(table, flat, stored[flat]);
+  const std::vector<double> losses =
+      node_losses({table.grid, table.storage, chosen, table.creases}, stored, run);
+  for (std::size_t flat = 0; flat < losses.size(); ++flat)
+    if (chosen[flat])
+      table.sw_loss[flat] = static_cast<float>(losses[flat]);
+}
+
 // Moves the nodes' matrices for the sake of what lies between them, and states their losses anew.
+template <typename Node>
 RefineReport refine_nodes(const Config& config, const RefineContext& context,
                           const std::vector<QueryRange>& ranges, const RunContext& run,
                           Table& table) {
   const std::size_t count = table.grid.size();
-  std::vector<Eigen::Matrix3d> stored(count);
+  std::vector<Node> stored(count);
   std::vector<bool> present(count), movable(count);
   for (std::size_t flat = 0; flat < count; ++flat) {
     const double alpha = table.grid.alpha.nodes[table.grid.node(flat).alpha];
     const bool made = has_values(table.status[flat]);
     const bool kept = !made && has_values_in(context.existing, flat);
-    stored[flat] = (kept ? *context.existing : table).stored_at(flat);
+    get_node(kept ? *context.existing : table, flat, stored[flat]);
     present[flat] = made || kept;
     movable[flat] = made && !(config.refine.keep_smoothest && alpha <= table.grid.alpha_min);
   }
-  const RefineReport report =
-      refine({table.grid, table.storage, present}, movable, ranges, config.refine, run, stored);
+  const RefineReport report = refine({table.grid, table.storage, present, table.creases}, movable,
+                                     ranges, config.refine, run, stored);
   if (!report.kept)
     return report;
   for (std::size_t flat = 0; flat < count; ++flat)
     if (movable[flat])
-      table.set_stored(flat, normalise(table.storage, stored[flat]));
-  for (std::size_t flat = 0; flat < count; ++flat)
-    stored[flat] = table.stored_at(flat);
-  const std::vector<double> losses = node_losses({table.grid, table.storage, movable}, stored, run);
-  for (std::size_t flat = 0; flat < count; ++flat)
-    if (movable[flat])
-      table.sw_loss[flat] = static_cast<float>(losses[flat]);
+      set_node(stored[flat], flat, table);
+  measure_losses<Node>(movable, run, table);
   return report;
 }
+RefineReport refine_nodes(const Config& config, const RefineContext& context,
+                          const std::vector<QueryRange>& ranges, const RunContext& run,
+                          Table& table) {
+  return is_folded(table) ? refine_nodes<FoldedNode>(config, context, ranges, run, table)
+                          : refine_nodes<Eigen::Matrix3d>(config, context, ranges, run, table);
+}
 
-// The losses of all nodes, after their matrices were made otherwise than by fits of their own.
 void measure_losses(const RunContext& run, Table& table) {
-  std::vector<Eigen::Matrix3d> stored(table.grid.size());
-  std::vector<bool> present(stored.size());
-  for (std::size_t flat = 0; flat < stored.size(); ++flat) {
-    stored[flat] = table.stored_at(flat);
-    present[flat] = has_values(table.status[flat]);
-  }
-  const std::vector<double> losses = node_losses({table.grid, table.storage, present}, stored, run);
-  std::ranges::transform(losses, table.sw_loss.begin(),
-                         [](double loss) { return static_cast<float>(loss); });
+  std::vector<bool> present(table.grid.size());
+  std::transform(table.status.begin(), table.status.end(), present.begin(), has_values);
+  if (is_folded(table))
+    measure_losses<FoldedNode>(present, run, table);
+  else
+    measure_losses<Eigen::Matrix3d>(present, run, table);
 }
 
 void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
@@ -173,10 +205,26 @@ void skip_others(const std::vector<bool>& needed, Table& table) {
       continue;
     std::copy_n(none.stored.begin(), 9,
                 table.stored.begin() + static_cast<std::ptrdiff_t>(9 * flat));
+    std::copy_n(none.fold.begin(), is_folded(table) ? 2 : 0,
+                table.fold.begin() + static_cast<std::ptrdiff_t>(2 * flat));
     table.amplitude[flat] = none.amplitude[flat];
     table.fresnel[flat] = none.fresnel[flat];
     table.status[flat] = none.status[flat];
   }
+}
+
+// The nodes of a folded table before they are refined: the values of a small field. Its folds are
+// of one branch everywhere, and as symmetric and continuous as those of a table should be.
+Table nodes_of_small_field(const Config& config, const std::vector<QueryRange>& asked,
+                           const RunContext& run) {
+  FieldSettings settings = config.field;
+  settings.size = folded_start_size;
+  settings.half = false;
+  const Field field = fit_field(config.grid.alpha_min, *config.grid.model,
+                                ranges_of_field(config, asked), settings, config.refine, run);
+  Table table = table_of_field(field, config.grid, Storage::folded, run);
+  table.field.reset();
+  return table;
 }
 
 void describe(const Config& config, Table& table) {
@@ -253,21 +301,28 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     return table;
   }
 
-  Table table = Table::empty(config.grid, config.storage);
-  describe(config, table);
-
   const std::vector<PlannedEntry> plan = plan_by_symmetry(config.grid, needed, run);
-  result.fits = representative_count(plan);
-  result.fits_of_whole_grid = EqualLobes(config.grid).count();
-  std::vector<FittedEntry> entries =
-      fit_table(config.grid, config.fit, plan, run, nullptr, journal);
-  finish_stage("fit");
-  align_all(entries, run);
-  finish_stage("align");
-  post_process_all(config.grid, entries, table, run, result);
-  finish_stage("post-process");
+  const std::size_t lobes = representative_count(plan);
+  Table table = Table::empty(config.grid, config.storage);
+  if (is_folded(table)) {
+    table = nodes_of_small_field(config, context.asked, run);
+    skip_others(needed, table);
+    measure_losses(run, table);
+    finish_stage("field");
+  } else {
+    result.fits = lobes;
+    result.fits_of_whole_grid = EqualLobes(config.grid).count();
+    std::vector<FittedEntry> entries =
+        fit_table(config.grid, config.fit, plan, run, nullptr, journal);
+    finish_stage("fit");
+    align_all(entries, run);
+    finish_stage("align");
+    post_process_all(config.grid, entries, table, run, result);
+    finish_stage("post-process");
+  }
+  describe(config, table);
   table.refined = false;
-  if (config.refine.steps > 0 && result.fits > 0) {
+  if (config.refine.steps > 0 && lobes > 0) {
     const std::vector<QueryRange> ranges = ranges_served(config, context.asked);
     if (context.asked.empty() && ranges.front() != config.refine.range)
       result.range_served = ranges.front();

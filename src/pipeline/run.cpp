@@ -155,9 +155,6 @@ void require_formats(const Config& config) {
     throw InputError(fmt::format(
         "field.loss = {} without a field: field.size is 0; expected the most numbers it may have",
         config.field.loss));
-  if (config.field.folded && config.field.size == 0)
-    throw InputError(
-        "field.folded without a field: field.size is 0; expected the numbers that it may have");
   if (const FieldSettings& field = config.field;
       field.second_crease > 0 && field.second_crease <= field.crease)
     throw InputError(
@@ -166,10 +163,10 @@ void require_formats(const Config& config) {
   for (const Format& format : formats()) {
     if (!format.is_asked(config) || OutputSettings{}.*format.asked)
       continue;
-    if (config.field.folded && !format.of_folded)
+    if (config.storage == Storage::folded && !format.of_folded)
       throw InputError(
-          fmt::format("{}, which [output] asks for, cannot hold a folded field", format.name));
-    if (config.field.folded && format.of_one_pair && config.field.second_crease > 0)
+          fmt::format("{}, which [output] asks for, cannot hold folded lobes", format.name));
+    if (config.storage == Storage::folded && format.of_one_pair && config.field.second_crease > 0)
       throw InputError(fmt::format(
           "{}, which [output] asks for, holds folded lobes with one pair of creases; "
           "field.second_crease = {}, expected 0",
@@ -228,7 +225,7 @@ FilesOfRun files_of_run(const Config& config, const fs::path& folder) {
   for (const Format& format : formats()) {
     TableFiles written;
     if (format.is_written(config))
-      written = format.files(prefix, resolved(config.output.layout, config.grid, config.storage));
+      written = format.files(prefix, config.grid, config.storage, config.output.layout);
     std::ranges::copy(written, std::back_inserter(files.written));
     if (format.ending_of_others)
       continue;

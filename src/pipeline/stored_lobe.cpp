@@ -44,7 +44,7 @@ double relative_loss_of_node(const Table& table, std::size_t flat, const RunCont
   run.throw_if_stopped();
   HeldOutJudge judge;
   judge.set_lobe(table.grid.lobe(flat));
-  return judge.loss(table.matrix_at(flat)) / judge.spread();
+  return judge.loss(table.ltc_at(flat)) / judge.spread();
 }
 
 }  // namespace

@@ -12,9 +12,11 @@
 namespace ltc {
 namespace {
 
-// X S X with X the swap of x and y, row-major.
-Vector9 swapped(const Vector9& value) {
-  Vector9 result;
+// X S X with X the swap of x and y, row-major; of folded nodes at lambda = 1, which have no fold, the
+// rest stays.
+template <typename Vector>
+Vector swapped(const Vector& value) {
+  Vector result = value;
   constexpr int other[3] = {1, 0, 2};
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
@@ -26,6 +28,22 @@ bool keeps(const Eigen::Matrix3d& matrix, const SingularityBound& bound) {
   return matrix.determinant() >= bound.determinant &&
          solid_angle_of_columns(matrix) >= bound.solid_angle &&
          frobenius_condition(matrix * bound.scale.asDiagonal()) <= bound.condition;
+}
+
+bool keeps(const Eigen::Matrix3d&, const Eigen::Matrix3d& matrix, const SingularityBound& bound) {
+  return keeps(matrix, bound);
+}
+bool keeps(const FoldedNode& node, const Eigen::Matrix3d& matrix, const SingularityBound& bound) {
+  return keeps(matrix, bound) && node[10] <= bound.gamma;
+}
+
+// `node` with another matrix.
+Eigen::Matrix3d with_matrix(const Eigen::Matrix3d&, const Eigen::Matrix3d& matrix) {
+  return matrix;
+}
+FoldedNode with_matrix(FoldedNode node, const Eigen::Matrix3d& matrix) {
+  node.head<9>() = flattened(matrix);
+  return node;
 }
 
 // The node of the azimuth pi/2 - phi; the axis' size if there is none.
@@ -68,6 +86,13 @@ NodeSpace::NodeSpace(const Grid& grid, Storage storage, const std::vector<bool>&
   }
   for (std::size_t flat = 0; flat < grid.size(); ++flat)
     free_[flat] = frozen[flat] ? FreeEntries{} : free_entries(grid.lobe(flat));
+  free_fold_.resize(grid.size());
+  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    const NodeIndex node = grid.node(flat);
+    const bool folds = !frozen[flat] && grid.lambda.nodes[node.lambda] != 1;
+    free_fold_[flat] = {
+        folds && !looks_along_x(grid.theta.nodes[node.theta], grid.phi.nodes[node.phi]), folds};
+  }
   if (storage != Storage::inverse)
     return;
   // The middle entry is 1, and so is the first of an upward view, which is the same with x and y
@@ -79,9 +104,11 @@ NodeSpace::NodeSpace(const Grid& grid, Storage storage, const std::vector<bool>&
   }
 }
 
-void NodeSpace::average_orbits(NodeVectors& values) const {
+template <typename Values>
+void NodeSpace::average_orbits(Values& values) const {
+  using Vector = typename Values::value_type;
   for (const std::vector<Image>& orbit : orbits_) {
-    Vector9 mean = Vector9::Zero();
+    Vector mean = Vector::Zero();
     for (const Image image : orbit)
       mean += image.swapped ? swapped(values[image.node]) : values[image.node];
     mean /= static_cast<double>(orbit.size());
@@ -90,15 +117,25 @@ void NodeSpace::average_orbits(NodeVectors& values) const {
   }
 }
 
-void NodeSpace::project(const std::vector<Eigen::Matrix3d>& stored, NodeVectors& step) const {
+void NodeSpace::project_fold(NodeVectorsOf<FoldedNode>& step) const {
+  for (std::size_t flat = 0; flat < step.size(); ++flat)
+    for (std::size_t i = 0; i < 2; ++i)
+      if (!free_fold_[flat][i])
+        step[flat][9 + static_cast<Eigen::Index>(i)] = 0;
+}
+
+template <typename Node>
+void NodeSpace::project(const std::vector<Node>& stored, NodeVectorsOf<Node>& step) const {
+  if constexpr (numbers_of<Node> > 9)
+    project_fold(step);
   for (std::size_t flat = 0; flat < step.size(); ++flat) {
-    Vector9& value = step[flat];
+    NodeVector<Node>& value = step[flat];
     for (int entry = 0; entry < 9; ++entry)
       if (!free_[flat][entry])
         value[entry] = 0;
     if (storage_ == Storage::inverse)
       continue;
-    const Eigen::Vector3d axis = stored[flat].col(2);
+    const Eigen::Vector3d axis = matrix_of(stored[flat]).col(2);
     const double along = axis.x() * value[2] + axis.y() * value[5] + axis.z() * value[8];
     const double share = along / axis.squaredNorm();
     if (free_[flat][8])
@@ -108,14 +145,20 @@ void NodeSpace::project(const std::vector<Eigen::Matrix3d>& stored, NodeVectors&
   average_orbits(step);
 }
 
-void NodeSpace::symmetrise(std::vector<Eigen::Matrix3d>& stored) const {
-  NodeVectors values(stored.size());
+template <typename Node>
+void NodeSpace::symmetrise(std::vector<Node>& stored) const {
+  NodeVectorsOf<Node> values(stored.size());
   for (std::size_t flat = 0; flat < stored.size(); ++flat)
     values[flat] = flattened(stored[flat]);
   average_orbits(values);
   for (std::size_t flat = 0; flat < stored.size(); ++flat)
-    stored[flat] = unflattened(values[flat]);
+    stored[flat] = node_of<Node>(values[flat]);
 }
+
+template void NodeSpace::project(const std::vector<Eigen::Matrix3d>&, NodeVectors&) const;
+template void NodeSpace::project(const std::vector<FoldedNode>&, NodeVectorsOf<FoldedNode>&) const;
+template void NodeSpace::symmetrise(std::vector<Eigen::Matrix3d>&) const;
+template void NodeSpace::symmetrise(std::vector<FoldedNode>&) const;
 
 double solid_angle_of_columns(const Eigen::Matrix3d& matrix) {
   return matrix.colwise().normalized().determinant();
@@ -125,25 +168,34 @@ double frobenius_condition(const Eigen::Matrix3d& matrix) {
   return matrix.norm() * matrix.inverse().norm();
 }
 
-std::vector<Eigen::Matrix3d> stepped(Storage storage, const std::vector<Eigen::Matrix3d>& stored,
-                                     const NodeVectors& step,
-                                     const std::vector<SingularityBound>& bounds) {
+template <typename Node>
+std::vector<Node> stepped(Storage storage, const std::vector<Node>& stored,
+                          const NodeVectorsOf<Node>& step,
+                          const std::vector<SingularityBound>& bounds) {
   constexpr int most_halvings = 30;
-  std::vector<Eigen::Matrix3d> result = stored;
+  std::vector<Node> result = stored;
   for (std::size_t flat = 0; flat < stored.size(); ++flat) {
     if (step[flat].isZero(0))
       continue;
-    Eigen::Matrix3d change = unflattened(step[flat]);
+    Node change = node_of<Node>(step[flat]);
     for (int halvings = 0; halvings < most_halvings; ++halvings, change /= 2) {
-      Eigen::Matrix3d candidate = stored[flat] + change;
-      candidate /= scale_of(storage, candidate);
-      if (keeps(candidate, bounds[flat])) {
-        result[flat] = candidate;
+      const Node candidate = stored[flat] + change;
+      Eigen::Matrix3d matrix = matrix_of(candidate);
+      matrix /= scale_of(storage, matrix);
+      if (keeps(candidate, matrix, bounds[flat])) {
+        result[flat] = with_matrix(candidate, matrix);
         break;
       }
     }
   }
   return result;
 }
+
+template std::vector<Eigen::Matrix3d> stepped(Storage, const std::vector<Eigen::Matrix3d>&,
+                                              const NodeVectors&,
+                                              const std::vector<SingularityBound>&);
+template std::vector<FoldedNode> stepped(Storage, const std::vector<FoldedNode>&,
+                                         const NodeVectorsOf<FoldedNode>&,
+                                         const std::vector<SingularityBound>&);
 
 }  // namespace ltc

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -13,14 +14,44 @@
 
 namespace ltc {
 
-// One value of nine numbers (a row-major matrix) a node.
-using NodeVectors = std::vector<Vector9>;
+// What a node has: S, or of a folded table (Storage::folded) S by rows, kappa and gamma.
+using FoldedNode = Eigen::Matrix<double, 11, 1>;
+
+// The numbers of it, and of a step, S row-major first.
+template <typename Node>
+inline constexpr int numbers_of = Node::SizeAtCompileTime;
+template <typename Node>
+using NodeVector = Eigen::Matrix<double, numbers_of<Node>, 1>;
+template <typename Node>
+using NodeMatrix = Eigen::Matrix<double, numbers_of<Node>, numbers_of<Node>>;
+template <typename Node>
+using NodeVectorsOf = std::vector<NodeVector<Node>>;
+using NodeVectors = NodeVectorsOf<Eigen::Matrix3d>;
+
+inline const Eigen::Matrix3d& matrix_of(const Eigen::Matrix3d& node) {
+  return node;
+}
+inline Eigen::Matrix3d matrix_of(const FoldedNode& node) {
+  return unflattened(node.head<9>());
+}
+inline const FoldedNode& flattened(const FoldedNode& node) {
+  return node;
+}
+template <typename Node>
+Node node_of(const NodeVector<Node>& numbers) {
+  if constexpr (numbers_of<Node> == 9)
+    return unflattened(numbers);
+  else
+    return numbers;
+}
 
 // What a step must leave as it is:
 //   - the zeros of equation (16) of Aakash et al. 2022;
 //   - theta = 0: every phi has the same matrix;
 //   - lambda = 1: the matrix at phi is that at pi/2 - phi with x and y swapped, so that a look-up
-//     does not jump where alpha_y overtakes alpha_x and equation (14) folds it;
+//     does not jump where alpha_y overtakes alpha_x and equation (14) folds it; for the same reason
+//     there is no fold (x and y swapped, creases would lie across);
+//   - kappa = 0 at phi = 0 and theta = 0, where the lobe is symmetric in y;
 //   - the scale of the storage (scale_of): the middle entry, or the length of the third column to
 //     first order;
 //   - every matrix that is not `movable`.
@@ -31,10 +62,12 @@ class NodeSpace {
   NodeSpace(const Grid& grid, Storage storage, const std::vector<bool>& movable);
 
   // The nearest step from `stored` that keeps all that. `stored` itself keeps it.
-  void project(const std::vector<Eigen::Matrix3d>& stored, NodeVectors& step) const;
+  template <typename Node>
+  void project(const std::vector<Node>& stored, NodeVectorsOf<Node>& step) const;
 
   // Gives matrices the symmetries above, by averaging those that are tied.
-  void symmetrise(std::vector<Eigen::Matrix3d>& stored) const;
+  template <typename Node>
+  void symmetrise(std::vector<Node>& stored) const;
 
  private:
   // A node's matrix, as it is or with x and y swapped.
@@ -42,11 +75,14 @@ class NodeSpace {
     std::size_t node;
     bool swapped;
   };
-  void average_orbits(NodeVectors& values) const;
+  template <typename Values>
+  void average_orbits(Values& values) const;
+  void project_fold(NodeVectorsOf<FoldedNode>& step) const;
 
   Storage storage_;
   std::vector<std::vector<Image>> orbits_;  // of more than one image
   std::vector<FreeEntries> free_;           // none of a node that is not movable
+  std::vector<std::array<bool, 2>> free_fold_;  // kappa and gamma
 };
 
 // How near a matrix may come to a singular one.
@@ -55,6 +91,7 @@ struct SingularityBound {
   double solid_angle;  // that of the columns' directions, in [-1, 1], at least this
   double condition;    // of the matrix with columns scaled by `scale`, at most this
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  double gamma = 0;  // of a folded node, at most this
 };
 
 // |a b c| of the matrix's columns, each made a unit vector: what is left of the determinant's
@@ -67,8 +104,9 @@ double frobenius_condition(const Eigen::Matrix3d& matrix);
 
 // stored + step, of scale 1 again. Where that would pass its bound, the
 // node takes half the step, and half again; tied nodes of equal bounds stay tied.
-std::vector<Eigen::Matrix3d> stepped(Storage storage, const std::vector<Eigen::Matrix3d>& stored,
-                                     const NodeVectors& step,
-                                     const std::vector<SingularityBound>& bounds);
+template <typename Node>
+std::vector<Node> stepped(Storage storage, const std::vector<Node>& stored,
+                          const NodeVectorsOf<Node>& step,
+                          const std::vector<SingularityBound>& bounds);
 
 }  // namespace ltc

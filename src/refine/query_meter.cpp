@@ -58,12 +58,8 @@ void QueryMeter::measure(const LobeFrame& frame, std::size_t query, const Eigen:
 }
 
 void QueryMeter::set_creases(const Creases& creases) {
-  for (SampleSet& set : sets_) {
-    set.u.resize(set.cosines.size());
-    for (std::size_t i = 0; i < set.u.size(); ++i)
-      set.u[i] = static_cast<float>(
-          crease_distance({set.cosines.x[i], set.cosines.y[i], set.cosines.z[i]}, creases));
-  }
+  for (SampleSet& set : sets_)
+    set.u = crease_distances(set.cosines, creases);
 }
 
 void QueryMeter::measure(const LobeFrame& frame, std::size_t query, const Eigen::Matrix3d& p,

@@ -21,10 +21,11 @@ struct FrameOfStored {
 FrameOfStored frame_of_stored(Storage storage, const LobeFrame& frame,
                               const Eigen::Matrix3d& stored) {
   Eigen::Matrix3d left = Eigen::Matrix3d::Identity(), right = Eigen::Matrix3d::Identity();
-  if (storage != Storage::mirror_frame)
+  if (!is_in_mirror_frame(storage))
     left = frame.rotation.transpose();
-  if (storage == Storage::matrix || storage == Storage::inverse)
-    right.diagonal() << 1 / frame.lobe.alpha_x, 1 / frame.lobe.alpha_y, 1;
+  const Eigen::Vector3d scale = scale_of_columns(storage, frame.lobe);
+  if (storage != Storage::roughness_scaled && storage != Storage::mirror_frame)
+    right.diagonal() << scale.x() / frame.lobe.alpha_x, scale.y() / frame.lobe.alpha_y, 1;
   if (storage != Storage::inverse)
     return {left * stored * right, left, right};
   // d(S^-1) = -S^-1 dS S^-1. The loss does not feel a factor, which is left out of what changes.
@@ -41,6 +42,30 @@ Matrix9 jacobian(const FrameOfStored& map) {
       for (int from = 0; from < 3; ++from)
         for (int to = 0; to < 3; ++to)
           result(3 * row + column, 3 * from + to) = map.left(row, from) * map.right(to, column);
+  return result;
+}
+
+// (P q) of a folded node, and how it changes with the node's eleven numbers.
+struct FoldedFrame {
+  Eigen::Matrix3d p;
+  Eigen::Vector3d q;
+  Eigen::Matrix<double, 12, 11> jacobian;
+};
+FoldedFrame frame_of_folded(const LobeFrame& frame, const FoldedNode& node) {
+  const Eigen::Matrix3d s = matrix_of(node);
+  const double alpha_2 = frame.lobe.alpha_x * frame.lobe.alpha_x;
+  const Eigen::Vector3d scale(1, width_across(frame.lobe) / frame.lobe.alpha_y, 1);
+  const Eigen::Vector3d bend(0, alpha_2 * node[9], node[10]);
+  FoldedFrame result{s * scale.asDiagonal(), s * bend, {}};
+  result.jacobian.setZero();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      result.jacobian(4 * row + column, 3 * row + column) = scale[column];
+      result.jacobian(4 * row + 3, 3 * row + column) = bend[column];
+    }
+    result.jacobian(4 * row + 3, 9) = alpha_2 * s(row, 1);
+    result.jacobian(4 * row + 3, 10) = s(row, 2);
+  }
   return result;
 }
 
@@ -76,9 +101,13 @@ std::vector<std::size_t> ordered_by_cell(const TableNodes& nodes, const std::vec
 
 }  // namespace
 
-QuerySystem::QuerySystem(const TableNodes& nodes, const WeightedLobes& asked,
-                         const QuerySampling& sampling, double shift, const RunContext& run)
+template <typename Node>
+QuerySystemOf<Node>::QuerySystemOf(const TableNodes& nodes, const WeightedLobes& asked,
+                                   const QuerySampling& sampling, double shift,
+                                   const RunContext& run)
     : storage_(nodes.storage), node_count_(nodes.grid.size()), meter_(sampling, shift) {
+  if (numbers_of<Node> > 9)
+    meter_.set_creases(nodes.creases);
   const Reduction reduction(nodes.grid);
   const std::vector<std::size_t> order = ordered_by_cell(nodes, asked.lobes, reduction, run);
   corners_of_node_.resize(node_count_);
@@ -100,36 +129,52 @@ QuerySystem::QuerySystem(const TableNodes& nodes, const WeightedLobes& asked,
   targets_.resize(queries_.size());
 }
 
-void QuerySystem::evaluate_query(std::size_t q, const Eigen::Matrix3d& interpolated,
-                                 QueryMeter::Buffers& buffers) {
+template <typename Node>
+void QuerySystemOf<Node>::evaluate_query(std::size_t q, const Node& interpolated,
+                                         QueryMeter::Buffers& buffers) {
   const Query& query = queries_[q];
   Model& model = evaluated_[q];
   const LobeFrame frame(query.lobe);
   const double spread = meter_.see(frame, q, targets_[q], buffers), share = query.weight / spread;
-  const FrameOfStored map = frame_of_stored(storage_, frame, interpolated);
-  if (!map.p.allFinite()) {
+  const double expected = model.loss > 0 ? model.loss / share : spread;
+  if (!interpolated.allFinite()) {
     model.loss = std::numeric_limits<double>::infinity();
     return;
   }
-  ModelValue value;
-  const double expected = model.loss > 0 ? model.loss / share : spread;
-  meter_.measure(frame, q, map.p, expected, buffers, value);
-  const Matrix9 to_frame = jacobian(map);
-  model.loss = share * value.loss;
-  model.gradient.noalias() = share * (to_frame.transpose() * value.gradient);
-  // Symmetric on paper, and but for the rounding of the kernel's products.
-  const Matrix9 curvature = share * (to_frame.transpose() * value.curvature * to_frame);
-  model.curvature = 0.5 * (curvature + curvature.transpose());
+  const auto set_model = [&](const auto& value, const auto& to_frame) {
+    model.loss = share * value.loss;
+    model.gradient.noalias() = share * (to_frame.transpose() * value.gradient);
+    // Symmetric on paper, and but for the rounding of the kernel's products.
+    const NodeMatrix<Node> curvature =
+        share * (to_frame.transpose() * value.curvature * to_frame);
+    model.curvature = 0.5 * (curvature + curvature.transpose());
+  };
+  if constexpr (numbers_of<Node> == 9) {
+    const FrameOfStored map = frame_of_stored(storage_, frame, interpolated);
+    if (!map.p.allFinite()) {
+      model.loss = std::numeric_limits<double>::infinity();
+      return;
+    }
+    ModelValue value;
+    meter_.measure(frame, q, map.p, expected, buffers, value);
+    set_model(value, jacobian(map));
+  } else {
+    const FoldedFrame map = frame_of_folded(frame, interpolated);
+    FoldedModelValue value;
+    meter_.measure(frame, q, map.p, map.q, expected, buffers, value);
+    set_model(value, map.jacobian);
+  }
 }
 
-double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, const RunContext& run) {
+template <typename Node>
+double QuerySystemOf<Node>::evaluate(const std::vector<Node>& stored, const RunContext& run) {
   // The loss at the model in use tells each query's smoothing.
   parallel_for<QueryMeter::Buffers>(
       cells_.size(), run, [] { return QueryMeter::Buffers(); },
       [&](std::size_t c, QueryMeter::Buffers& buffers) {
         const Cell& cell = cells_[c];
         for (std::size_t q = cell.first; q < cell.last; ++q) {
-          Eigen::Matrix3d interpolated = Eigen::Matrix3d::Zero();
+          Node interpolated = Node::Zero();
           for (std::size_t corner = 0; corner < 16; ++corner)
             if (queries_[q].weights[corner] != 0)
               interpolated += queries_[q].weights[corner] * stored[cell.nodes[corner]];
@@ -142,8 +187,9 @@ double QuerySystem::evaluate(const std::vector<Eigen::Matrix3d>& stored, const R
                          [](double sum, const Model& model) { return sum + model.loss; });
 }
 
+template <typename Node>
 template <typename Value, typename Part>
-void QuerySystem::gather(std::vector<Value>& result, const RunContext& run, const Value& zero,
+void QuerySystemOf<Node>::gather(std::vector<Value>& result, const RunContext& run, const Value& zero,
                          Part&& part) const {
   result.assign(node_count_, zero);
   parallel_for(node_count_, run, [&](std::size_t node) {
@@ -156,43 +202,54 @@ void QuerySystem::gather(std::vector<Value>& result, const RunContext& run, cons
   });
 }
 
-void QuerySystem::gradient(NodeVectors& result, const RunContext& run) const {
-  gather<Vector9>(result, run, Vector9::Zero(), [&](std::size_t q, double weight, Vector9& sum) {
+template <typename Node>
+void QuerySystemOf<Node>::gradient(NodeVectorsOf<Node>& result, const RunContext& run) const {
+  using Vector = NodeVector<Node>;
+  gather<Vector>(result, run, Vector::Zero(), [&](std::size_t q, double weight, Vector& sum) {
     sum += weight * models_[q].gradient;
   });
 }
 
-void QuerySystem::multiply(const NodeVectors& step, NodeVectors& result,
-                           const RunContext& run) const {
-  NodeVectors pulled(queries_.size());
+template <typename Node>
+void QuerySystemOf<Node>::multiply(const NodeVectorsOf<Node>& step, NodeVectorsOf<Node>& result,
+                                   const RunContext& run) const {
+  using Vector = NodeVector<Node>;
+  NodeVectorsOf<Node> pulled(queries_.size());
   parallel_for(cells_.size(), run, [&](std::size_t c) {
     for (std::size_t q = cells_[c].first; q < cells_[c].last; ++q) {
-      Vector9 interpolated = Vector9::Zero();
+      Vector interpolated = Vector::Zero();
       for (std::size_t corner = 0; corner < 16; ++corner)
         interpolated += queries_[q].weights[corner] * step[cells_[c].nodes[corner]];
       // Into a value of its own: the order in which Eigen sums depends on where the result lies.
-      alignas(16) Vector9 product;
+      alignas(16) Vector product;
       product = models_[q].curvature.lazyProduct(interpolated);
       pulled[q] = product;
     }
   });
-  gather<Vector9>(result, run, Vector9::Zero(),
-                  [&](std::size_t q, double weight, Vector9& sum) { sum += weight * pulled[q]; });
+  gather<Vector>(result, run, Vector::Zero(),
+                 [&](std::size_t q, double weight, Vector& sum) { sum += weight * pulled[q]; });
 }
 
-void QuerySystem::diagonal_blocks(std::vector<Matrix9>& blocks, const RunContext& run) const {
-  gather<Matrix9>(blocks, run, Matrix9::Zero(), [&](std::size_t q, double weight, Matrix9& sum) {
+template <typename Node>
+void QuerySystemOf<Node>::diagonal_blocks(std::vector<NodeMatrix<Node>>& blocks,
+                                          const RunContext& run) const {
+  using Matrix = NodeMatrix<Node>;
+  gather<Matrix>(blocks, run, Matrix::Zero(), [&](std::size_t q, double weight, Matrix& sum) {
     sum += weight * weight * models_[q].curvature;
   });
 }
 
-std::size_t QuerySystem::memory_bytes(const QuerySampling& sampling, std::size_t queries,
-                                      std::size_t cells, std::size_t nodes) {
-  const std::size_t query = sizeof(Query) + 2 * sizeof(Model) + sizeof(Vector9) +
+template <typename Node>
+std::size_t QuerySystemOf<Node>::memory_bytes(const QuerySampling& sampling, std::size_t queries,
+                                              std::size_t cells, std::size_t nodes) {
+  const std::size_t query = sizeof(Query) + 2 * sizeof(Model) + sizeof(NodeVector<Node>) +
                             QueryMeter::target_bytes(sampling) + 2 * sizeof(std::size_t);
   // A node's corners grow by doubling, and may have just grown.
   return queries * query + cells * 2 * (sizeof(Cell) + 16 * sizeof(Corner)) +
          nodes * sizeof(std::vector<Corner>);
 }
+
+template class QuerySystemOf<Eigen::Matrix3d>;
+template class QuerySystemOf<FoldedNode>;
 
 }  // namespace ltc

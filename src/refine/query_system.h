@@ -27,12 +27,15 @@
 
 namespace ltc {
 
-class QuerySystem {
+// Of a folded table (Node = FoldedNode, eleven numbers) the model is one of twelve, (P q)
+// (quantile_model.h): q = S (0, alpha_x^2 kappa, gamma)^T changes with S too.
+template <typename Node>
+class QuerySystemOf {
  public:
   // The look-ups of the lobes with weights c_p. Those beyond the axes, which no table serves, and
   // those that need a node without values are left out. Systems of different `shift` in [0, 1)
   // share no samples.
-  QuerySystem(const TableNodes& nodes, const WeightedLobes& asked, const QuerySampling& sampling,
+  QuerySystemOf(const TableNodes& nodes, const WeightedLobes& asked, const QuerySampling& sampling,
               double shift, const RunContext& run = {});
 
   // What so many queries in so many cells need, about, and while they are multiplied with.
@@ -43,14 +46,14 @@ class QuerySystem {
 
   // F at `stored`; also makes the model there, which adopt() takes into use. Infinite where a
   // matrix is not finite. Throws Interrupted when a stop is asked for.
-  double evaluate(const std::vector<Eigen::Matrix3d>& stored, const RunContext& run);
+  double evaluate(const std::vector<Node>& stored, const RunContext& run);
   void adopt() { models_.swap(evaluated_); }
 
   // Throw Interrupted too. Of the model in use: gradient, curvature times a step, the curvature's
   // blocks on the diagonal. Sums have a fixed order: the same bits for any number of threads.
-  void gradient(NodeVectors& result, const RunContext& run = {}) const;
-  void multiply(const NodeVectors& step, NodeVectors& result, const RunContext& run = {}) const;
-  void diagonal_blocks(std::vector<Matrix9>& blocks, const RunContext& run = {}) const;
+  void gradient(NodeVectorsOf<Node>& result, const RunContext& run = {}) const;
+  void multiply(const NodeVectorsOf<Node>& step, NodeVectorsOf<Node>& result, const RunContext& run = {}) const;
+  void diagonal_blocks(std::vector<NodeMatrix<Node>>& blocks, const RunContext& run = {}) const;
 
  private:
   struct Query {
@@ -61,16 +64,15 @@ class QuerySystem {
   // In the stored variables, times c_p / spread.
   struct Model {
     double loss = 0;
-    Vector9 gradient;
-    Matrix9 curvature;
+    NodeVector<Node> gradient;
+    NodeMatrix<Node> curvature;
   };
   // Neighbouring queries, which share their 16 nodes.
   struct Cell {
     std::array<std::size_t, 16> nodes;
     std::size_t first, last;  // queries
   };
-  void evaluate_query(std::size_t q, const Eigen::Matrix3d& interpolated,
-                      QueryMeter::Buffers& buffers);
+  void evaluate_query(std::size_t q, const Node& interpolated, QueryMeter::Buffers& buffers);
   // Sums at every node what `part` adds for each query of its cells.
   template <typename Value, typename Part>
   void gather(std::vector<Value>& result, const RunContext& run, const Value& zero,
@@ -89,5 +91,7 @@ class QuerySystem {
   std::vector<Model> models_, evaluated_;
   std::vector<BinnedTarget> targets_;
 };
+using QuerySystem = QuerySystemOf<Eigen::Matrix3d>;
+using FoldedQuerySystem = QuerySystemOf<FoldedNode>;
 
 }  // namespace ltc

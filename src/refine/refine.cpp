@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "field/field.h"
 #include "fit/loss_meter.h"
 #include "refine/query_system.h"
 #include "refine/refine_step.h"
@@ -28,17 +29,20 @@ constexpr double least_determinant_share = 0.1, least_solid_angle = 0.01, most_c
 constexpr double refined_shift = 0.0, held_out_shift = 0.4321;
 
 // The condition is that of M, whatever the table stores.
-std::vector<SingularityBound> bounds_at(const Grid& grid, Storage storage,
-                                        const std::vector<Eigen::Matrix3d>& stored) {
+template <typename Node>
+std::vector<SingularityBound> bounds_at(const TableNodes& nodes, const std::vector<Node>& stored) {
+  const double most_gamma = nodes.creases.empty() ? 0 : most_fold(nodes.creases);
   std::vector<SingularityBound> bounds;
   for (std::size_t flat = 0; flat < stored.size(); ++flat) {
-    const Eigen::Matrix3d& matrix = stored[flat];
-    const Eigen::Vector3d scale =
-        matrix_from_stored(storage, Eigen::Matrix3d::Identity(), grid.lobe(flat)).colwise().norm();
+    const Eigen::Matrix3d matrix = matrix_of(stored[flat]);
+    const Eigen::Vector3d scale = matrix_from_stored(nodes.storage, Eigen::Matrix3d::Identity(),
+                                                     nodes.grid.lobe(flat))
+                                      .colwise()
+                                      .norm();
     bounds.push_back({least_determinant_share * matrix.determinant(),
                       std::min(least_solid_angle, solid_angle_of_columns(matrix)),
                       std::max(most_condition, frobenius_condition(matrix * scale.asDiagonal())),
-                      scale});
+                      scale, most_gamma});
   }
   return bounds;
 }
@@ -48,33 +52,58 @@ std::size_t evaluations(const RefineSettings& settings) {
   return static_cast<std::size_t>(settings.steps) + 1;
 }
 
-}  // namespace
-
-std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& has_values,
-                                    const RefineSettings& settings) {
+template <typename Node>
+std::size_t memory_bytes(const Grid& grid, const std::vector<bool>& has_values,
+                         const RefineSettings& settings) {
+  using System = QuerySystemOf<Node>;
   const std::size_t nodes = grid.size();
   const std::size_t refined_on = refined_query_count(grid, has_values, settings) + nodes;
   const std::size_t held_out =
       std::min(refined_on, static_cast<std::size_t>(settings.held_out_queries));
   // Three iterates and their bounds, the vectors and blocks of a step.
-  constexpr std::size_t of_node = 3 * sizeof(Eigen::Matrix3d) + sizeof(SingularityBound) +
-                                  sizeof(FreeEntries) + 8 * sizeof(Vector9) + 2 * sizeof(Matrix9);
-  return QuerySystem::memory_bytes(settings.sampling, refined_on, nodes, nodes) +
-         QuerySystem::memory_bytes(settings.sampling, held_out, held_out, nodes) +
+  constexpr std::size_t of_node = 3 * sizeof(Node) + sizeof(SingularityBound) +
+                                  sizeof(FreeEntries) + 8 * sizeof(NodeVector<Node>) +
+                                  2 * sizeof(NodeMatrix<Node>);
+  return System::memory_bytes(settings.sampling, refined_on, nodes, nodes) +
+         System::memory_bytes(settings.sampling, held_out, held_out, nodes) +
          (refined_on + held_out) * (sizeof(Lobe) + sizeof(double)) + nodes * of_node;
 }
 
+double node_loss(const LossMeter& meter, const LobeFrame& frame, const TableNodes& nodes,
+                 const Eigen::Matrix3d& stored, FitWorkspace& workspace) {
+  const Eigen::Matrix3d p =
+      frame.from_matrix(matrix_from_stored(nodes.storage, stored, frame.lobe));
+  return meter.loss(frame, p / p.col(2).norm(), workspace);
+}
+double node_loss(const LossMeter& meter, const LobeFrame& frame, const TableNodes& nodes,
+                 const FoldedNode& node, FitWorkspace& workspace) {
+  const Eigen::Matrix3d p =
+      frame.from_matrix(matrix_from_stored(nodes.storage, matrix_of(node), frame.lobe));
+  const Fold fold = fold_of(node[9], node[10], frame.lobe, nodes.creases);
+  return meter.loss(frame, p, fold, workspace);
+}
+
+}  // namespace
+
+std::size_t refinement_memory_bytes(const Grid& grid, Storage storage,
+                                    const std::vector<bool>& has_values,
+                                    const RefineSettings& settings) {
+  return storage == Storage::folded ? memory_bytes<FoldedNode>(grid, has_values, settings)
+                                    : memory_bytes<Eigen::Matrix3d>(grid, has_values, settings);
+}
+
+template <typename Node>
 RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
                     const std::vector<QueryRange>& asked, const RefineSettings& settings,
-                    const RunContext& run, std::vector<Eigen::Matrix3d>& stored) {
+                    const RunContext& run, std::vector<Node>& stored) {
   const WeightedLobes refined_on =
       queries_to_refine_on(nodes.grid, nodes.has_values, asked, settings);
   const WeightedLobes held_out = queries_held_out(nodes.grid.alpha_min, *nodes.grid.model, asked,
                                                   settings, refined_on.lobes.size());
   const Stage stage(run, "refine",
                     evaluations(settings) * (refined_on.lobes.size() + held_out.lobes.size()));
-  QuerySystem queries(nodes, refined_on, settings.sampling, refined_shift, run);
-  QuerySystem judge(nodes, held_out, settings.sampling, held_out_shift, run);
+  QuerySystemOf<Node> queries(nodes, refined_on, settings.sampling, refined_shift, run);
+  QuerySystemOf<Node> judge(nodes, held_out, settings.sampling, held_out_shift, run);
   RefineReport report;
   report.queries = queries.size();
   if (judge.size() == 0)
@@ -83,7 +112,7 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
   run.advance(evaluations(settings) *
               (refined_on.lobes.size() - queries.size() + held_out.lobes.size() - judge.size()));
   const NodeSpace space(nodes.grid, nodes.storage, movable);
-  std::vector<Eigen::Matrix3d> current = stored;
+  std::vector<Node> current = stored;
   space.symmetrise(current);
   double objective = queries.evaluate(current, run);
   queries.adopt();
@@ -91,13 +120,13 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
   const double judged =
       static_cast<double>(judge.size()) / static_cast<double>(held_out.lobes.size());
   report.loss_before = report.loss_after = judge.evaluate(stored, run) / judged;
-  const std::vector<SingularityBound> bounds = bounds_at(nodes.grid, nodes.storage, current);
+  const std::vector<SingularityBound> bounds = bounds_at(nodes, current);
   double damping = settings.damping;
   while (report.steps < settings.steps) {
     ++report.steps;
-    const NodeVectors step =
+    const NodeVectorsOf<Node> step =
         refinement_step(queries, space, current, damping, settings.overshoot, run);
-    const std::vector<Eigen::Matrix3d> trial = stepped(nodes.storage, current, step, bounds);
+    const std::vector<Node> trial = stepped(nodes.storage, current, step, bounds);
     const double next = queries.evaluate(trial, run);
     if (!(next < objective)) {
       damping *= damping_rise;
@@ -120,11 +149,12 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
   return report;
 }
 
-std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Eigen::Matrix3d>& stored,
+template <typename Node>
+std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Node>& stored,
                                 const RunContext& run) {
   const Grid& grid = nodes.grid;
   constexpr std::size_t bins = 64;
-  const LossMeter meter(bins);
+  const LossMeter meter(bins, nodes.creases);
   std::vector<double> losses(grid.size(), std::numeric_limits<double>::quiet_NaN());
   parallel_for_each<FitWorkspace>(
       "node losses", grid.size(), run, [] { return FitWorkspace(); },
@@ -133,11 +163,20 @@ std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Eigen
           return;
         const LobeFrame frame(grid.lobe(flat));
         meter.set_target(frame, workspace);
-        const Eigen::Matrix3d p =
-            frame.from_matrix(matrix_from_stored(nodes.storage, stored[flat], frame.lobe));
-        losses[flat] = meter.loss(frame, p / p.col(2).norm(), workspace);
+        losses[flat] = node_loss(meter, frame, nodes, stored[flat], workspace);
       });
   return losses;
 }
+
+template RefineReport refine(const TableNodes&, const std::vector<bool>&,
+                             const std::vector<QueryRange>&, const RefineSettings&,
+                             const RunContext&, std::vector<Eigen::Matrix3d>&);
+template RefineReport refine(const TableNodes&, const std::vector<bool>&,
+                             const std::vector<QueryRange>&, const RefineSettings&,
+                             const RunContext&, std::vector<FoldedNode>&);
+template std::vector<double> node_losses(const TableNodes&, const std::vector<Eigen::Matrix3d>&,
+                                         const RunContext&);
+template std::vector<double> node_losses(const TableNodes&, const std::vector<FoldedNode>&,
+                                         const RunContext&);
 
 }  // namespace ltc

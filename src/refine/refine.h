@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "core/run_context.h"
+#include "refine/node_space.h"
 #include "refine/refine_queries.h"
 
 namespace ltc {
@@ -37,17 +38,21 @@ struct RefineReport {
 // determinant. Queries are drawn from `asked` in turn, at least one range; those beyond the axes
 // and those that need a node without values are left out. Nodes that are not `movable` stay as they
 // are. Throws Interrupted when a stop is asked for. The same bits for any number of threads.
+// Node: Eigen::Matrix3d, or FoldedNode of a folded table (node_space.h).
+template <typename Node>
 RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
                     const std::vector<QueryRange>& asked, const RefineSettings& settings,
-                    const RunContext& run, std::vector<Eigen::Matrix3d>& stored);
+                    const RunContext& run, std::vector<Node>& stored);
 
 // What refine() takes of memory, about.
-std::size_t refinement_memory_bytes(const Grid& grid, const std::vector<bool>& has_values,
+std::size_t refinement_memory_bytes(const Grid& grid, Storage storage,
+                                    const std::vector<bool>& has_values,
                                     const RefineSettings& settings);
 
 // The sliced-Wasserstein loss of every node's own lobe at `stored` (fit/loss_meter.h); NaN where a
 // node has no values. Throws Interrupted.
-std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Eigen::Matrix3d>& stored,
+template <typename Node>
+std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Node>& stored,
                                 const RunContext& run);
 
 }  // namespace ltc

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "ltc/folded.h"
 #include "refine/refine_settings.h"
 #include "table/grid.h"
 #include "table/storage.h"
@@ -18,6 +19,7 @@ struct TableNodes {
   const Grid& grid;
   Storage storage;
   const std::vector<bool>& has_values;
+  Creases creases = {};  // of Storage::folded
 };
 
 struct WeightedLobes {

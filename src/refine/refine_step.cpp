@@ -17,39 +17,45 @@ constexpr double least_curvature = 1e-4;
 constexpr double residual_share = 1e-2;
 constexpr int most_iterations = 60;
 
-double dot(const NodeVectors& a, const NodeVectors& b) {
+template <typename Vector>
+double dot(const std::vector<Vector>& a, const std::vector<Vector>& b) {
   double sum = 0;
   for (std::size_t node = 0; node < a.size(); ++node)
     sum += a[node].dot(b[node]);
   return sum;
 }
 
+template <typename Node>
 class StepSystem {
+  using Vector = NodeVector<Node>;
+  using Matrix = NodeMatrix<Node>;
+  using Vectors = NodeVectorsOf<Node>;
+
  public:
-  StepSystem(const QuerySystem& queries, const NodeSpace& space,
-             const std::vector<Eigen::Matrix3d>& stored, double damping, const RunContext& run)
+  StepSystem(const QuerySystemOf<Node>& queries, const NodeSpace& space,
+             const std::vector<Node>& stored, double damping, const RunContext& run)
       : queries_(queries), space_(space), stored_(stored), run_(run) {
-    std::vector<Matrix9> blocks;
+    std::vector<Matrix> blocks;
     queries.diagonal_blocks(blocks, run);
-    Vector9 mean = Vector9::Zero();
-    for (const Matrix9& block : blocks)
+    Vector mean = Vector::Zero();
+    for (const Matrix& block : blocks)
       mean += block.diagonal() / static_cast<double>(blocks.size());
     damped_diagonal_.resize(blocks.size());
     inverse_blocks_.resize(blocks.size());
     parallel_for(blocks.size(), run, [&](std::size_t node) {
       damped_diagonal_[node] = damping * (blocks[node].diagonal() + least_curvature * mean);
-      Matrix9 block = blocks[node];
+      Matrix block = blocks[node];
       block.diagonal() += damped_diagonal_[node];
-      inverse_blocks_[node] = block.ldlt().solve(Matrix9::Identity());
+      inverse_blocks_[node] = block.ldlt().solve(Matrix::Identity());
       if (!inverse_blocks_[node].allFinite())
         inverse_blocks_[node].setZero();
     });
   }
 
-  NodeVectors solve(const NodeVectors& right) const {
-    NodeVectors residual = right, product, solution(right.size(), Vector9::Zero());
+  Vectors solve(const Vectors& right) const {
+    Vectors residual = right, product, solution(right.size(), Vector::Zero());
     space_.project(stored_, residual);
-    NodeVectors direction = conditioned(residual);
+    Vectors direction = conditioned(residual);
     double energy = dot(residual, direction);
     const double goal = residual_share * residual_share * energy;
     for (int i = 0; i < most_iterations && energy > goal; ++i) {
@@ -62,7 +68,7 @@ class StepSystem {
         solution[node] += length * direction[node];
         residual[node] -= length * product[node];
       }
-      const NodeVectors next = conditioned(residual);
+      const Vectors next = conditioned(residual);
       const double next_energy = dot(residual, next);
       for (std::size_t node = 0; node < solution.size(); ++node)
         direction[node] = next[node] + (next_energy / energy) * direction[node];
@@ -72,41 +78,49 @@ class StepSystem {
   }
 
  private:
-  void multiply(const NodeVectors& step, NodeVectors& product) const {
+  void multiply(const Vectors& step, Vectors& product) const {
     queries_.multiply(step, product, run_);
     for (std::size_t node = 0; node < step.size(); ++node)
       product[node] += damped_diagonal_[node].cwiseProduct(step[node]);
     space_.project(stored_, product);
   }
-  NodeVectors conditioned(const NodeVectors& residual) const {
-    NodeVectors result(residual.size());
+  Vectors conditioned(const Vectors& residual) const {
+    Vectors result(residual.size());
     for (std::size_t node = 0; node < residual.size(); ++node)
       result[node].noalias() = inverse_blocks_[node] * residual[node];
     space_.project(stored_, result);
     return result;
   }
 
-  const QuerySystem& queries_;
+  const QuerySystemOf<Node>& queries_;
   const NodeSpace& space_;
-  const std::vector<Eigen::Matrix3d>& stored_;
+  const std::vector<Node>& stored_;
   const RunContext run_;
-  NodeVectors damped_diagonal_;
-  std::vector<Matrix9> inverse_blocks_;
+  Vectors damped_diagonal_;
+  std::vector<Matrix> inverse_blocks_;
 };
 
 }  // namespace
 
-NodeVectors refinement_step(const QuerySystem& queries, const NodeSpace& space,
-                            const std::vector<Eigen::Matrix3d>& stored, double damping,
-                            double overshoot, const RunContext& run) {
-  NodeVectors downhill;
+template <typename Node>
+NodeVectorsOf<Node> refinement_step(const QuerySystemOf<Node>& queries, const NodeSpace& space,
+                                    const std::vector<Node>& stored, double damping,
+                                    double overshoot, const RunContext& run) {
+  NodeVectorsOf<Node> downhill;
   queries.gradient(downhill, run);
-  for (Vector9& value : downhill)
+  for (NodeVector<Node>& value : downhill)
     value = -value;
-  NodeVectors step = StepSystem(queries, space, stored, damping, run).solve(downhill);
-  for (Vector9& value : step)
+  NodeVectorsOf<Node> step = StepSystem<Node>(queries, space, stored, damping, run).solve(downhill);
+  for (NodeVector<Node>& value : step)
     value *= overshoot;
   return step;
 }
+
+template NodeVectors refinement_step(const QuerySystem&, const NodeSpace&,
+                                     const std::vector<Eigen::Matrix3d>&, double, double,
+                                     const RunContext&);
+template NodeVectorsOf<FoldedNode> refinement_step(const FoldedQuerySystem&, const NodeSpace&,
+                                                   const std::vector<FoldedNode>&, double, double,
+                                                   const RunContext&);
 
 }  // namespace ltc

@@ -14,8 +14,9 @@ namespace ltc {
 // Solves Pi (H + damping D) Pi s = -Pi grad F of the model that `queries` has in use (refine.h) and
 // returns s times `overshoot`. Throws Interrupted when a stop is asked for. The same bits for any
 // number of threads.
-NodeVectors refinement_step(const QuerySystem& queries, const NodeSpace& space,
-                            const std::vector<Eigen::Matrix3d>& stored, double damping,
-                            double overshoot, const RunContext& run = {});
+template <typename Node>
+NodeVectorsOf<Node> refinement_step(const QuerySystemOf<Node>& queries, const NodeSpace& space,
+                                    const std::vector<Node>& stored, double damping,
+                                    double overshoot, const RunContext& run = {});
 
 }  // namespace ltc

@@ -207,25 +207,24 @@ double folded_share(const FoldedCosine& lobe, const Light& light) {
 
 }  // namespace
 
-double ltc_share(const Eigen::Matrix3d& matrix, const Light& light, const Fold& fold,
-                 const Creases& creases) {
+double ltc_share(const LtcLobe& ltc, const Light& light) {
   if (!is_seen(light))
     return 0;
-  if (!creases.empty())
-    return folded_share(FoldedCosine(matrix, fold, creases), light);
+  if (!ltc.creases.empty())
+    return folded_share(FoldedCosine(ltc), light);
   if (light.shape == LightShape::line) {
     const double radius = light.half_v.norm();
-    return light.flat() ? ltc_share(matrix, Line{light.center - light.half_u,
+    return light.flat() ? ltc_share(ltc.matrix, Line{light.center - light.half_u,
                                                  light.center + light.half_u, radius})
                         : 0;
   }
   if (light.outline().empty()) {
     const Light disk = *light.flat();
-    return ltc_share(matrix, Ellipse{disk.center, disk.half_u, disk.half_v});
+    return ltc_share(ltc.matrix, Ellipse{disk.center, disk.half_u, disk.half_v});
   }
   // Seen from behind it turns the other way.
   return std::abs(
-      LinearlyTransformed(matrix).integrate_polygon(clip_to_upper_hemisphere(light.corners())));
+      LinearlyTransformed(ltc.matrix).integrate_polygon(clip_to_upper_hemisphere(light.corners())));
 }
 
 double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light& light) {
@@ -233,7 +232,7 @@ double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light
   const double albedo = f0 * found.amplitude + (1 - f0) * found.fresnel;
   if (!found.matrix.allFinite() || found.matrix.determinant() == 0 || !std::isfinite(albedo))
     return std::numeric_limits<double>::quiet_NaN();
-  const double share = ltc_share(found.matrix, light, found.fold, found.creases);
+  const double share = ltc_share(found.ltc(), light);
   return share > 0 ? albedo * share * fetched(found.matrix, light) : 0;
 }
 

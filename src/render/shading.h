@@ -25,8 +25,7 @@ struct SphereMaterial {
 // polygons by equation 11 of Heitz et al. 2016, of disks and spheres by ltc/disk.h, of lines by
 // ltc/line.h. The light is cut off at the point's horizon first, and then, transformed, at that of
 // the cosine. Throws InputError where the origin lies within the light.
-double ltc_share(const Eigen::Matrix3d& matrix, const Light& light, const Fold& fold = {},
-                 const Creases& creases = {});
+double ltc_share(const LtcLobe& ltc, const Light& light);
 
 // (F0 amplitude + (1 - F0) fresnel) times that, and times what is fetched from the light's texture
 // (render/light_texture.h). NaN where the table has no value or a matrix without an inverse.

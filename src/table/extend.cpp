@@ -77,6 +77,8 @@ void copy_entry(const Table& from, Table& to, std::size_t flat) {
   copy_entry(from.sw_loss, to.sw_loss, flat);
   copy_entry(from.status, to.status, flat);
   copy_entry(from.iterations, to.iterations, flat);
+  if (is_folded(from))
+    copy_entry(from.fold, to.fold, flat, 2);
 }
 
 }  // namespace

@@ -9,13 +9,11 @@
 namespace ltc {
 
 // All entries of the grid from the field, of the storage's scale, as `fitted`; losses are NaN.
-// Of a field of one material, those of other roughnesses are `skipped`. The
+// Of a field of one material, those of other roughnesses are `skipped`. Of a folded field the
+// storage is `folded`, whatever is asked for. The
 // grid's alpha_min and BRDF are the field's. The result has the field too, so that look-ups are
 // still the field's: without it, `.field.reset()`, it is a table that is interpolated.
 // Throws InputError for storage inverse where the grid is not isotropic.
 Table table_of_field(const Field& field, Grid grid, Storage storage, const RunContext& run = {});
-
-// The fold of a node's lobe; none where the table has no folded field.
-Fold fold_at(const Table& table, std::size_t flat);
 
 }  // namespace ltc

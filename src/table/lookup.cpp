@@ -65,6 +65,7 @@ LookUp look_up(const Table& table, const Lobe& lobe) {
   const Interpolation corners = interpolation(table.grid, folded.lobe);
   Eigen::Matrix3d stored = Eigen::Matrix3d::Zero();
   LookUp result{Eigen::Matrix3d::Zero(), 0, 0};
+  double kappa = 0, gamma = 0;
   for (std::size_t corner = 0; corner < corners.nodes.size(); ++corner) {
     const double weight = corners.weights[corner];
     if (weight == 0)
@@ -73,9 +74,15 @@ LookUp look_up(const Table& table, const Lobe& lobe) {
     stored += weight * table.stored_at(node);
     result.amplitude += weight * table.amplitude[node];
     result.fresnel += weight * table.fresnel[node];
+    if (is_folded(table)) {
+      kappa += weight * table.fold[2 * node];
+      gamma += weight * table.fold[2 * node + 1];
+    }
   }
   const Lobe bounded = bounded_below(folded.lobe, table.grid.alpha_min);
   result.matrix = folded.unfold * matrix_from_stored(table.storage, stored, bounded);
+  result.fold = fold_of(kappa, gamma, bounded, table.creases);
+  result.creases = table.creases;
   return result;
 }
 

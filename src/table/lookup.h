@@ -31,9 +31,11 @@ struct LookUp {
   Eigen::Matrix3d matrix;
   double amplitude;
   double fresnel;
-  // Of a folded field: the lobe is that of M after the fold (ltc/folded.h).
+  // Of folded lobes (ltc/folded.h).
   Fold fold = {};
   Creases creases = {};
+
+  LtcLobe ltc() const { return {matrix, fold, creases}; }
 };
 LookUp look_up(const Table& table, const Lobe& lobe);
 

@@ -4,10 +4,24 @@
 
 #include <Eigen/LU>
 
+#include "field/field.h"
+
 namespace ltc {
 
 double scale_of(Storage storage, const Eigen::Matrix3d& stored) {
   return storage == Storage::inverse ? stored(1, 1) : stored.col(2).norm();
+}
+
+Eigen::Vector3d scale_of_columns(Storage storage, const Lobe& lobe) {
+  switch (storage) {
+    case Storage::matrix:
+    case Storage::inverse:
+      return Eigen::Vector3d::Ones();
+    case Storage::folded:
+      return {lobe.alpha_x, width_across(lobe), 1};
+    default:
+      return {lobe.alpha_x, lobe.alpha_y, 1};
+  }
 }
 
 Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& stored,
@@ -16,10 +30,11 @@ Eigen::Matrix3d matrix_from_stored(Storage storage, const Eigen::Matrix3d& store
     return stored;
   if (storage == Storage::inverse)
     return stored.inverse();
+  const Eigen::Vector3d scale = scale_of_columns(storage, lobe);
   Eigen::Matrix3d matrix = stored;
-  matrix.col(0) *= lobe.alpha_x;
-  matrix.col(1) *= lobe.alpha_y;
-  if (storage == Storage::mirror_frame)
+  matrix.col(0) *= scale.x();
+  matrix.col(1) *= scale.y();
+  if (is_in_mirror_frame(storage))
     matrix = (mirror_rotation(lobe.omega_v()) * matrix).eval();
   return matrix;
 }
@@ -30,11 +45,12 @@ Eigen::Matrix3d stored_from_matrix(Storage storage, const Eigen::Matrix3d& matri
     return matrix;
   if (storage == Storage::inverse)
     return matrix.inverse();
+  const Eigen::Vector3d scale = scale_of_columns(storage, lobe);
   Eigen::Matrix3d stored = matrix;
-  if (storage == Storage::mirror_frame)
+  if (is_in_mirror_frame(storage))
     stored = (mirror_rotation(lobe.omega_v()).transpose() * stored).eval();
-  stored.col(0) /= lobe.alpha_x;
-  stored.col(1) /= lobe.alpha_y;
+  stored.col(0) /= scale.x();
+  stored.col(1) /= scale.y();
   return stored;
 }
 

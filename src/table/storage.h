@@ -18,14 +18,25 @@ enum class Storage {
   // M = S^-1, S with the middle entry 1: what shaders of isotropic tables read and engines ship.
   // Only of grids with lambda = 1 and phi = 0 alone, whose S is symmetric where x and y are.
   inverse,
+  // M = Q S diag(alpha_x, s_y, 1) of a folded lobe (ltc/folded.h), s_y = width_across(lobe), with
+  // kappa and gamma (field/field.h) interpolated beside S.
+  folded,
 };
 
-constexpr EnumNames<Storage, 4> enum_names(Storage) {
+constexpr EnumNames<Storage, 5> enum_names(Storage) {
   return {"storage",
           {{{Storage::matrix, "matrix"},
             {Storage::roughness_scaled, "roughness-scaled"},
             {Storage::mirror_frame, "mirror-frame"},
-            {Storage::inverse, "inverse"}}}};
+            {Storage::inverse, "inverse"},
+            {Storage::folded, "folded"}}}};
+}
+
+// What S is multiplied by on the right, the diagonal of A or of what stands in its place; and
+// whether Q stands on its left. Not of `inverse`.
+Eigen::Vector3d scale_of_columns(Storage storage, const Lobe& lobe);
+constexpr bool is_in_mirror_frame(Storage storage) {
+  return storage == Storage::mirror_frame || storage == Storage::folded;
 }
 
 // What S is divided by to have the scale of the storage: the length of its third column, or its

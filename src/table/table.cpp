@@ -19,6 +19,8 @@ Table Table::empty(const Grid& grid, Storage storage) {
   table.stored.assign(9 * grid.size(), nan);
   table.amplitude.assign(grid.size(), nan);
   table.fresnel.assign(grid.size(), nan);
+  if (storage == Storage::folded)
+    table.fold.assign(2 * grid.size(), nan);
   table.sw_loss.assign(grid.size(), nan);
   table.status.assign(grid.size(), Status::skipped);
   table.iterations.assign(grid.size(), 0);
@@ -35,6 +37,12 @@ void Table::set_stored(std::size_t flat, const Eigen::Matrix3d& value) {
 
 Eigen::Matrix3d Table::matrix_at(std::size_t flat) const {
   return matrix_from_stored(storage, stored_at(flat), grid.lobe(flat));
+}
+
+Fold Table::fold_at(std::size_t flat) const {
+  if (storage != Storage::folded)
+    return {};
+  return fold_of(fold[2 * flat], fold[2 * flat + 1], grid.lobe(flat), creases);
 }
 
 }  // namespace ltc

@@ -62,8 +62,12 @@ struct Table {
   std::vector<float> amplitude;  // integral of rho cos(theta_l) with F = 1
   std::vector<float> fresnel;    // integral of (1 - v.h)^5 rho cos(theta_l)
   std::vector<float> sw_loss;    // sliced-Wasserstein loss of the stored matrix
+  std::vector<float> fold;       // kappa and gamma, two an entry; of Storage::folded alone
   std::vector<Status> status;
   std::vector<std::uint16_t> iterations;  // optimiser steps spent
+
+  // Of folded lobes; with Storage::folded alone, at least one.
+  Creases creases = {};
 
   // All arrays sized for the grid, every value NaN and every status `skipped`.
   static Table empty(const Grid& grid, Storage storage);
@@ -72,14 +76,14 @@ struct Table {
   void set_stored(std::size_t flat, const Eigen::Matrix3d& stored);
   // M of the node, whatever the storage.
   Eigen::Matrix3d matrix_at(std::size_t flat) const;
+  // The fold of the node's lobe; none with other storages. And the lobe itself.
+  Fold fold_at(std::size_t flat) const;
+  LtcLobe ltc_at(std::size_t flat) const { return {matrix_at(flat), fold_at(flat), creases}; }
 };
 
 // Whether its lobes are folded (ltc/folded.h): then matrices alone are none.
 inline bool is_folded(const Table& table) {
-  return table.field && !table.field->creases.empty();
-}
-inline Creases creases_of(const Table& table) {
-  return table.field ? table.field->creases : Creases{};
+  return table.storage == Storage::folded;
 }
 
 }  // namespace ltc

@@ -48,7 +48,8 @@ TEST(FieldCommands, AFieldGoesWhereTablesGo) {
            {"fit", "--as-in", "t/ltc_field.json", "--alpha-x", "0.4", "--alpha-y", "0.1", "--theta",
             "60", "--phi", "30"},
            {"render", "t/ltc_field.json", "--size", "16", "--samples", "16", "-o", "r"},
-                      {"bake", "t/ltc_field.json", "-o", "b.h5", "--set", "table.alpha.nodes=3"},
+           {"convert", "t/ltc_field.json", "-o", "t.npy"},
+           {"bake", "t/ltc_field.json", "-o", "b.h5", "--set", "table.alpha.nodes=3"},
            {"bake", "t/ltc.h5", "-o", "b.ktx2", "--half"},
            {"diff", "t/ltc_field.json", "b.h5", "--queries", "20"}}) {
     const ProgramResult result = run_ltcfit(arguments, folder.path());

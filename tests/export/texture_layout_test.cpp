@@ -37,8 +37,8 @@ TEST(TextureLayout, EveryFormatGivesBackTheTableThatItHolds) {
     WriteOptions options;
     options.layout = layout;
     write_table(table, file, options);
-    const TableFiles files = set_of(file).format->files(
-        set_of(file).prefix, resolved(layout, table.grid, table.storage));
+    const TableFiles files =
+        set_of(file).format->files(set_of(file).prefix, table.grid, table.storage, layout);
     // Text knows no 3-D: the layers of an array are what was written.
     const Table back = read_table(files.front(), {{}, resolved(layout, table.grid, table.storage)});
     EXPECT_EQ(back.grid, table.grid) << name;

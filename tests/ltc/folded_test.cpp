@@ -169,10 +169,10 @@ TEST(Folded, TheShareBelowTheHorizonIsThatOfTheSamples) {
       below += lobe.sample(u, random.uniform()).z() < 0;
     }
     // Four standard errors.
-    EXPECT_NEAR(below / count, share_below_horizon(some_matrix(), shape.fold, shape.creases),
+    EXPECT_NEAR(below / count, share_below_horizon({some_matrix(), shape.fold, shape.creases}),
                 4 * 0.5 / std::sqrt(count));
   }
-  EXPECT_EQ(share_below_horizon(some_matrix(), {}, {}), share_below_horizon(some_matrix()));
+  EXPECT_EQ(share_below_horizon(LtcLobe(some_matrix())), share_below_horizon(some_matrix()));
 }
 
 // A polygon so small that its density is one number, by the integral and by the density.

@@ -121,14 +121,30 @@ float ltc_case_light_folded(LtcFoldedLobe lobe, float light, vec3 p, vec3 a, vec
   return ltc_quad_folded(lobe, p, p + a, p + a + b, p + b);
 }
 
+LtcFoldedLobe ltc_case_folded_lobe(sampler3D folded_0, sampler3D folded_1, sampler3D folded_2,
+                                   sampler3D folded_3, float look, vec3 view, float alpha_x,
+                                   float alpha_y) {
+  if (look < 6.5) {
+    return ltc_look_up_folded_field(view, alpha_x, alpha_y);
+  }
+  if (look < 7.5) {
+    return ltc_look_up_folded_exact(folded_0, folded_1, folded_2, folded_3, LTC_FOLDED_TABLE, view,
+                                    alpha_x, alpha_y);
+  }
+  return ltc_look_up_folded(folded_0, folded_1, folded_2, folded_3, LTC_FOLDED_TABLE, view, alpha_x,
+                            alpha_y);
+}
+
 LtcCase ltc_case(sampler3D values_0, sampler3D values_1, sampler3D values_2, sampler3D stacked,
-                 sampler2D inverses, sampler2D terms, sampler2D picture, vec4 i0, vec4 i1,
+                 sampler2D inverses, sampler2D terms, sampler2D picture, sampler3D folded_0,
+                 sampler3D folded_1, sampler3D folded_2, sampler3D folded_3, vec4 i0, vec4 i1,
                  vec4 i2, vec4 i3) {
   LtcLobe lobe;
   float share = 0.0;
   vec3 seen = vec3(0.0, 0.0, 0.0);
   if (i2.w > 5.5) {
-    LtcFoldedLobe folded = ltc_look_up_folded_field(i0.xyz, i0.w, i1.w);
+    LtcFoldedLobe folded = ltc_case_folded_lobe(folded_0, folded_1, folded_2, folded_3, i2.w, i0.xyz,
+                                                i0.w, i1.w);
     lobe = folded.lobe;
     share = ltc_case_light_folded(folded, floor(i3.w), i1.xyz, i2.xyz, i3.xyz, 0.2);
     seen = vec3(folded.k, folded.g, folded.h);

@@ -19,9 +19,14 @@ enum class LookUpKind {
   stacked_filtered,
   isotropic,
   field,
-  folded_field
+  folded_field,
+  folded_exact,
+  folded_filtered
 };
-constexpr int look_up_kinds = 7;
+constexpr int look_up_kinds = 9;
+constexpr bool is_folded(LookUpKind kind) {
+  return kind >= LookUpKind::folded_field;
+}
 // The last three are no lights: a density, a sample, the share below the horizon. Of folded lobes
 // quad_as_sphere is a quad.
 enum class LightKind {
@@ -47,7 +52,7 @@ struct Case {
 
 // What the tables are: of a field that no fit made, over a grid in a storage; and isotropic ones.
 struct Tables {
-  Table table, isotropic, field, folded_field;
+  Table table, isotropic, field, folded_field, folded;
 };
 Tables make_tables(const Grid& grid, Storage storage, const Creases& creases = usual_creases);
 
@@ -58,7 +63,8 @@ std::vector<Case> make_cases(std::size_t count, std::uint64_t seed);
 Job make_job(const Tables& tables, const std::vector<Case>& cases);
 
 // By the library, in double precision: M as shaders unfold it, rows and columns alike; the terms;
-// the share of the light; what the picture (whose texels hold place and level) shows, or k, g and h.
+// the share of the light; what the picture (whose texels hold place and level) shows, or k, g and
+// h.
 struct Expected {
   Eigen::Matrix3d matrix;
   double amplitude, fresnel, share;

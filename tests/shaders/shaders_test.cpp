@@ -67,8 +67,9 @@ class Comparison {
         m(row, column) = at(i, row, column);
         w(row, column) = at(i, row + 3, column);
       }
-    const bool filtered =
-        c.look_up == LookUpKind::filtered || c.look_up == LookUpKind::stacked_filtered;
+    const bool filtered = c.look_up == LookUpKind::filtered ||
+                          c.look_up == LookUpKind::stacked_filtered ||
+                          c.look_up == LookUpKind::folded_filtered;
     // Texture units have weights of 8 bits and more: the nodes of these tables are some tenths
     // apart. Isotropic ones are 64 to an axis. At the last node of the warp complement-sqrt, whose
     // slope is infinite there, the rounding of theta itself is worth some 1e-4.
@@ -96,11 +97,11 @@ class Comparison {
                          : c.light == LightKind::direction ? 10
                                                            : 1;
     require(i, "a light's share", std::abs(at(i, 2, 3) - e.share), 1e-4 * scale);
-    const bool folded = c.look_up == LookUpKind::folded_field;
+    const bool folded = is_folded(c.look_up);
     for (int axis = 0; axis < 3; ++axis)
       require(i, folded ? "k, g or h" : "a picture's place or level",
               std::abs(at(i, 3 + axis, 3) - e.seen(axis)),
-              folded ? 1e-5 * std::max(1.0, std::abs(e.seen(axis)))
+              folded ? tolerance * std::max(1.0, std::abs(e.seen(axis)))
               // Weights of 8 bits between texels, and between levels.
               : axis < 2 ? 2e-3
                          : 5e-3);
@@ -187,7 +188,8 @@ TEST_P(Shaders, APlantedErrorIsNoticed) {
            "abs(p.x) - folded.h * p.z",
            "1.0057411",
            "side * lobe.w0 - folded.h * lobe.w2",
-           "alpha * alpha * f_kappa"};
+           "alpha * alpha * f_kappa",
+           "scale.x * scale.x * fold.x"};
   for (const std::string& planted : all) {
     Job job = sound;
     std::string& source = job.*GetParam().source;

@@ -187,7 +187,10 @@ TEST_F(Viewer, LooksUpInTablesOfEveryKind) {
 TEST_F(Viewer, FoldedLobesAreThoseOfRender) {
   const Table folded = table_of_field(testing::synthetic_folded_field(), Grid::paper(2),
                                       Storage::matrix, {1, nullptr});
-  write_page({{"folded", &folded}});
+  Table nodes = table_of_field(testing::synthetic_folded_field(), Grid::paper(3), Storage::folded,
+                               {1, nullptr});
+  nodes.field.reset();
+  write_page({{"folded", &folded}, {"nodes", &nodes}});
   json steps{window_size};
   const std::vector<std::pair<std::string, LightShape>> lights{{"rectangle", LightShape::rectangle},
                                                                {"star", LightShape::star},
@@ -195,21 +198,21 @@ TEST_F(Viewer, FoldedLobesAreThoseOfRender) {
                                                                {"sphere", LightShape::sphere},
                                                                {"line", LightShape::line}};
   for (const auto& [name, light] : lights)
-    for (const json& step : {opened("#alpha_x=0.1&alpha_y=0.4&light=" + name), is_there,
-                             done("ltcViewer.fix([40, 40])"),
-                             json{{"until", "ltcViewer.state().ready || " + message_text}},
-                             evaluated(name, "ltcViewer.pixels(0)")})
+    for (const json& step :
+         {opened("#alpha_x=0.1&alpha_y=0.4&light=" + name), is_there,
+          done("ltcViewer.fix([40, 40])"),
+          json{{"until", "ltcViewer.state().ready || " + message_text}},
+          evaluated(name, "ltcViewer.pixels(0)"), evaluated("b" + name, "ltcViewer.pixels(1)")})
       steps.push_back(step);
   const json results = drive(steps);
   EXPECT_EQ(results["errors"], json::array());
   for (const auto& [name, light] : lights) {
     SCOPED_TRACE(name);
-    const SphereImages images = rendered({&folded}, {0.1, 0.4, 1}, light);
+    const SphereImages images = rendered({&folded, &nodes}, {0.1, 0.4, 1}, light);
     const bool exact = light == LightShape::rectangle || light == LightShape::star;
-    expect_alike(results[name], images.ltc[0], images.coverage,
-                 exact                       ? 1e-3
-                 : light == LightShape::line ? 0.01
-                                             : 3e-3);
+    const double tolerance = exact ? 1e-3 : light == LightShape::line ? 0.01 : 3e-3;
+    expect_alike(results[name], images.ltc[0], images.coverage, tolerance);
+    expect_alike(results["b" + name], images.ltc[1], images.coverage, tolerance);
   }
 }
 
