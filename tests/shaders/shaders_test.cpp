@@ -182,12 +182,9 @@ TEST_P(Shaders, APlantedErrorIsNoticed) {
            "-mu * slope",
            "0.75 * place",
            "folded.k * unfolding",
-           "unfolding * height_a",
            "ltc_angle(abs(horizon.y), horizon.x)",
            "0.5 * side",
-           "abs(p.x) - folded.h * p.z",
            "1.0057411",
-           "side * lobe.w0 - folded.h * lobe.w2",
            "alpha * alpha * f_kappa",
            "scale.x * scale.x * fold.x"};
   for (const std::string& planted : all) {
