@@ -167,10 +167,10 @@ void require_formats(const Config& config) {
       throw InputError(
           fmt::format("{}, which [output] asks for, cannot hold folded lobes", format.name));
     if (config.storage == Storage::folded && format.of_one_pair && config.field.second_crease > 0)
-      throw InputError(fmt::format(
-          "{}, which [output] asks for, holds folded lobes with one pair of creases; "
-          "field.second_crease = {}, expected 0",
-          format.name, config.field.second_crease));
+      throw InputError(
+          fmt::format("{}, which [output] asks for, holds folded lobes with one pair of creases; "
+                      "field.second_crease = {}, expected 0",
+                      format.name, config.field.second_crease));
     if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);
         !why.empty())
       throw InputError(fmt::format("{}, which [output] asks for, cannot hold this table: it {}",
