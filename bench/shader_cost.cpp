@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// What the parts of shaders/ cost: time of a call on this machine's OpenGL ES, without a window.
+// What the parts of shaders/ cost: processor time of a call on this machine's OpenGL ES, all
+// threads together, without a window. Meant for a driver that runs on the processor, as Mesa's
+// llvmpipe does.
 //   ltcfit convert out/ltc.h5 -o table.glsl && ltcfit generate --config config/field.toml -o field
-//   ltcfit_shader_cost shaders/glsl table.glsl field/ltc.glsl
-// Each is called 64 times a pixel with other arguments; the median of seven pictures counts, less
-// that of a shader that calls nothing.
+//   ltcfit convert field/ltc_field.json -o field.glsl, and so a folded one
+//   ltcfit_shader_cost shaders/glsl table.glsl field.glsl folded.glsl
+// Each is called 64 times a pixel with other arguments; the fastest of seven pictures counts, less
+// that of a shader without the call.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GLES3/gl32.h>
@@ -12,9 +15,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <ctime>
 #include <fstream>
 #include <iostream>
+#include <limits>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -22,32 +27,64 @@
 
 namespace {
 
-constexpr int picture_side = 256, calls = 64;
+constexpr int picture_side = 256, calls = 64, pictures = 7;
+
+// Lobes that cost next to nothing, so that what is done with them is measured alone.
+constexpr const char* no_lobe = "";
+constexpr const char* cheap_lobe =
+    "LtcLobe lobe = ltc_lobe_of_rows(vec3(a, 0.0, 0.1), vec3(0.0, b, 0.1), vec3(0.0, -0.1, 1.0), "
+    "1.0, 0.0);\n";
+constexpr const char* cheap_folded_lobe =
+    "LtcFoldedLobe lobe = ltc_folded_lobe_of(ltc_lobe_of_rows(vec3(a, 0.0, 0.1), vec3(0.0, b, "
+    "0.1), vec3(0.0, -0.1, 1.0), 1.0, 0.0), vec3(b - 0.7, a - 0.5, 0.4));\n";
 
 struct Measured {
   const char* name;
+  const char* lobe;  // what stands before the call, whose own time is not counted
   const char* call;  // makes `x` of `lobe`, `view`, `a`, `b` and the light p, u, v
 };
-// A lobe that costs next to nothing stands before the lights, so that they are measured alone.
-constexpr const char* cheap_lobe =
-    "LtcLobe lobe = ltc_lobe_of_rows(vec3(a, 0.0, 0.1), vec3(0.0, b, 0.1), vec3(0.0, -0.1, 1.0), "
-    "1.0, "
-    "0.0);";
-constexpr std::array<Measured, 12> measured = {{
-    {"look-up, three textures, filtered",
+constexpr std::array<Measured, 21> measured = {{
+    {"look-up, three textures, filtered", no_lobe,
      "x = sum(ltc_look_up(t0, t1, t2, LTC_TABLE, view, a, b));"},
-    {"look-up, three textures, by texels",
+    {"look-up, three textures, by texels", no_lobe,
      "x = sum(ltc_look_up_exact(t0, t1, t2, LTC_TABLE, view, a, b));"},
-    {"look-up, field", "x = sum(ltc_look_up_field(view, a, b));"},
-    {"look-up, isotropic 64 x 64", "x = sum(ltc_look_up_isotropic(i0, i1, 64.0, view, a));"},
-    {"quad, above the horizon", "x = ltc_quad(lobe, p, p + u, p + u + v, p + v);"},
-    {"quad, cut", "x = ltc_quad(lobe, p - 3.0 * u, p + u, p + u + v, p - 3.0 * u + v);"},
-    {"quad as a sphere", "x = ltc_quad_as_sphere(lobe, p, p + u, p + u + v, p + v);"},
-    {"disk, above the horizon", "x = ltc_ellipse(lobe, p, 0.2 * u, 0.2 * v);"},
-    {"disk, cut", "x = ltc_ellipse(lobe, p, 4.0 * u, v);"},
-    {"sphere", "x = ltc_sphere(lobe, p, 0.2);"},
-    {"line", "x = ltc_line(lobe, p, p + u, 0.01);"},
-    {"picture's fetch", "x = ltc_picture(i0, 64.0, lobe, p, u, v).x;"},
+    {"look-up, field", no_lobe, "x = sum(ltc_look_up_field(view, a, b));"},
+    {"look-up, folded field", no_lobe, "x = sum_folded(ltc_look_up_folded_field(view, a, b));"},
+    {"look-up, isotropic 64 x 64", no_lobe,
+     "x = sum(ltc_look_up_isotropic(i0, i1, 64.0, view, a));"},
+    {"quad, above the horizon", cheap_lobe, "x = ltc_quad(lobe, p, p + u, p + u + v, p + v);"},
+    {"quad, cut", cheap_lobe,
+     "x = ltc_quad(lobe, p - 3.0 * u, p + u, p + u + v, p - 3.0 * u + v);"},
+    {"quad as a sphere", cheap_lobe, "x = ltc_quad_as_sphere(lobe, p, p + u, p + u + v, p + v);"},
+    {"disk, above the horizon", cheap_lobe, "x = ltc_ellipse(lobe, p, 0.2 * u, 0.2 * v);"},
+    {"disk, cut", cheap_lobe, "x = ltc_ellipse(lobe, p, 4.0 * u, v);"},
+    {"sphere", cheap_lobe, "x = ltc_sphere(lobe, p, 0.2);"},
+    {"line", cheap_lobe, "x = ltc_line(lobe, p, p + u, 0.01);"},
+    {"picture's fetch", cheap_lobe, "x = ltc_picture(i0, 64.0, lobe, p, u, v).x;"},
+    {"folded: quad, above the horizon", cheap_folded_lobe,
+     "x = ltc_quad_folded(lobe, p, p + u, p + u + v, p + v);"},
+    {"folded: quad, cut", cheap_folded_lobe,
+     "x = ltc_quad_folded(lobe, p - 3.0 * u, p + u, p + u + v, p - 3.0 * u + v);"},
+    {"folded: disk", cheap_folded_lobe, "x = ltc_ellipse_folded(lobe, p, 0.2 * u, 0.2 * v);"},
+    {"folded: line", cheap_folded_lobe, "x = ltc_line_folded(lobe, p, p + u, 0.01);"},
+    {"field, one light", no_lobe,
+     "LtcLobe lobe = ltc_look_up_field(view, a, b);"
+     "x = ltc_quad(lobe, p, p + u, p + u + v, p + v);"},
+    {"folded field, one light", no_lobe,
+     "LtcFoldedLobe lobe = ltc_look_up_folded_field(view, a, b);"
+     "x = ltc_quad_folded(lobe, p, p + u, p + u + v, p + v);"},
+    {"field, eight lights", no_lobe,
+     "LtcLobe lobe = ltc_look_up_field(view, a, b);"
+     "for (int j = 0; j < 8; ++j) {"
+     "  vec3 q = p + 0.1 * float(j) * u;"
+     "  x += ltc_quad(lobe, q, q + u, q + u + v, q + v);"
+     "}"},
+    {"folded field, eight lights", no_lobe,
+     "LtcFoldedLobe lobe = ltc_look_up_folded_field(view, a, b);"
+     "for (int j = 0; j < 8; ++j) {"
+     "  vec3 q = p + 0.1 * float(j) * u;"
+     "  x += ltc_quad_folded(lobe, q, q + u, q + u + v, q + v);"
+     "}"},
 }};
 
 std::string read_file(const std::string& name) {
@@ -94,6 +131,7 @@ uniform sampler3D t0, t1, t2;
 uniform sampler2D i0, i1;
 out vec4 color;
 float sum(LtcLobe l) { return dot(l.w0 + l.w1 + l.w2, vec3(1.0)) + l.amplitude; }
+float sum_folded(LtcFoldedLobe l) { return sum(l.lobe) + l.k + l.g; }
 void main() {
   float total = 0.0;
   for (int i = 0; i < )" +
@@ -143,20 +181,21 @@ void main() {
   glLinkProgram(program);
   glUseProgram(program);
   bind_textures(program);
-  std::array<double, 7> seconds{};
-  for (std::size_t i = 0; i <= seconds.size(); ++i) {
-    const auto began = std::chrono::steady_clock::now();
+  std::clock_t fastest = std::numeric_limits<std::clock_t>::max();
+  for (int i = 0; i <= pictures; ++i) {
+    const std::clock_t began = std::clock();
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glFinish();
     // The first one compiles.
     if (i > 0)
-      seconds[i - 1] =
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+      fastest = std::min(fastest, std::clock() - began);
   }
-  return 1e9 * *std::min_element(seconds.begin(), seconds.end()) / (picture_side * picture_side * calls);
+  return 1e9 * static_cast<double>(fastest) / CLOCKS_PER_SEC /
+         (picture_side * picture_side * calls);
 }
 
-void run(const std::string& shaders, const std::string& table, const std::string& field) {
+void run(const std::string& shaders, const std::string& table, const std::string& field,
+         const std::string& folded) {
   open_context();
   GLuint target = 0, frame = 0, vertices = 0;
   glGenVertexArrays(1, &vertices);
@@ -169,31 +208,35 @@ void run(const std::string& shaders, const std::string& table, const std::string
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
   glViewport(0, 0, picture_side, picture_side);
   std::string library = read_file(shaders + "/ltc_lobe.glsl");
-  for (const char* const name : {"table", "polygon", "disk", "line", "texture", "isotropic"})
+  for (const char* const name :
+       {"table", "polygon", "disk", "line", "texture", "isotropic", "folded", "folded_lights"})
     library += read_file(shaders + "/ltc_" + name + ".glsl");
-  library += read_file(table) + read_file(field) + read_file(shaders + "/ltc_field.glsl");
+  library += read_file(table) + read_file(field) + read_file(folded) +
+             read_file(shaders + "/ltc_field.glsl") + read_file(shaders + "/ltc_folded_field.glsl");
   const std::string version =
       "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler3D;\n"
       "precision highp sampler2D;\n";
-  const double nothing = time_of(version, library, "");
-  const double lobe = time_of(version, library, std::string(cheap_lobe) + " x = sum(lobe);");
-  std::cout << fmt::format("{}; nanoseconds a call\n",
+  std::cout << fmt::format("{}; nanoseconds of one core a call\n",
                            reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
-  for (const Measured& one : measured) {
-    const bool light = std::string(one.call).find("lobe,") != std::string::npos;
-    const double time =
-        time_of(version, library, (light ? std::string(cheap_lobe) : std::string()) + one.call);
-    std::cout << fmt::format("{:36}{:9.2f}\n", one.name, time - (light ? lobe : nothing));
-  }
+  const std::map<std::string, double> of_lobe = {
+      {no_lobe, time_of(version, library, "")},
+      {cheap_lobe, time_of(version, library, std::string(cheap_lobe) + "x = sum(lobe);")},
+      {cheap_folded_lobe,
+       time_of(version, library, std::string(cheap_folded_lobe) + "x = sum_folded(lobe);")}};
+  for (const Measured& one : measured)
+    std::cout << fmt::format(
+        "{:36}{:9.2f}\n", one.name,
+        time_of(version, library, std::string(one.lobe) + one.call) - of_lobe.at(one.lobe));
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
   try {
-    if (count != 4)
-      throw std::runtime_error("usage: ltcfit_shader_cost SHADERS TABLE.glsl FIELD.glsl");
-    run(arguments[1], arguments[2], arguments[3]);
+    if (count != 5)
+      throw std::runtime_error(
+          "usage: ltcfit_shader_cost SHADERS TABLE.glsl FIELD.glsl FOLDED.glsl");
+    run(arguments[1], arguments[2], arguments[3], arguments[4]);
   } catch (const std::exception& error) {
     std::cerr << "ltcfit_shader_cost: " << error.what() << "\n";
     return 1;

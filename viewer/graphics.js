@@ -6,7 +6,8 @@ const VERTEX_SHADER = `#version 300 es
 void main() {
   gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0, 1);
 }`;
-const LIBRARY = ['ltc_lobe', 'ltc_polygon', 'ltc_disk', 'ltc_line', 'ltc_table', 'ltc_texture'];
+const LIBRARY = ['ltc_lobe', 'ltc_polygon', 'ltc_disk', 'ltc_line', 'ltc_table', 'ltc_texture',
+                 'ltc_folded', 'ltc_folded_lights', 'ltc_folded_table'];
 // What each program is made of; `table` programs also of a table's look-up.
 const PROGRAMS = {
   table: [...LIBRARY, 'scene', 'table', 'table_main'],
@@ -64,7 +65,7 @@ class Graphics {
 
   tableTexture(table) {
     const { gl } = this;
-    const [alphas, lambdas, thetas, phis] = table.size, depth = 3 * alphas * lambdas;
+    const [alphas, lambdas, thetas, phis] = table.size, depth = (table.folded ? 4 : 3) * alphas * lambdas;
     const most = gl.getParameter(gl.MAX_3D_TEXTURE_SIZE);
     if (Math.max(depth, thetas, phis) > most)
       throw new Error(`${table.name} is ${phis} x ${thetas} x ${depth} texels; this browser's 3-D ` +
@@ -137,7 +138,8 @@ class Graphics {
                   'precision highp sampler2D;', 'precision highp sampler3D;',
                   `const int SHAPE = ${SHAPES.indexOf(state.shape)};`,
                   `const int LIGHT = ${LIGHTS.indexOf(state.light)};`,
-                  `#define FIELD ${table.field ? 1 : 0}`, `#define EXACT ${exact ? 1 : 0}`,
+                  `#define FIELD ${table.field ? 1 : 0}`,
+                  `#define FOLDED ${table.folded ? 1 : 0}`, `#define EXACT ${exact ? 1 : 0}`,
                   `#define BOTH_ALPHAS ${table.both_alphas ? 1 : 0}`];
     if (OF_TABLES.includes(kind) && table.field) {
       text.push(table.field);

@@ -19,12 +19,12 @@ void main() {
     return;
   }
   vec3 direction = vec3(xy, sqrt(squared_z));
-  float density;
+  float value;
   if (of_table) {
-    LtcLobe lobe = lobe_of(view, alpha);
-    density = lobe.amplitude * ltc_density(lobe, direction);
+    Lobe lobe = lobe_of(view, alpha);
+    value = plain(lobe).amplitude * density(lobe, direction);
   } else {
-    density = ggx_densities(ggx_of(view, alpha), view + direction, direction).x;
+    value = ggx_densities(ggx_of(view, alpha), view + direction, direction).x;
   }
-  result = vec4(density, 0, 0, 0);
+  result = vec4(value, 0, 0, 0);
 }

@@ -31,7 +31,7 @@ class Viewer {
   }
 
   words() {
-    const text = (table) => table.field ? `field of ${table.numbers} numbers`
+    const text = (table) => table.field ? `${table.folded ? 'folded ' : ''}field of ${table.numbers} numbers`
       : `${table.size.join(' × ')} nodes, ${table.storage_name}, ${table.half ? 16 : 32} bits`;
     element('tables').replaceChildren(...this.data.tables.map((table, i) => {
       const line = document.createElement('p'), name = document.createElement('b');

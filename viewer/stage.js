@@ -122,10 +122,10 @@ class Stage {
   }
 
   tableUniforms(number) {
-    const { size, first, last, warp, storage, alpha_min } = this.data.tables[number];
+    const { size, first, last, warp, storage, alpha_min, crease } = this.data.tables[number];
     return { values: this.graphics.tables[number], 'table.size': size, 'table.first': first,
              'table.last': last, 'table.warp': warp, 'table.storage': storage,
-             'table.alpha_min': alpha_min };
+             'table.alpha_min': alpha_min, 'table.crease': crease };
   }
 
   // ---- Sizes ----

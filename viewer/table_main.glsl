@@ -11,8 +11,8 @@ void main() {
     vec3 ray = ray_at(point_of_pixel(i, points));
     Hit hit = hit_of(ray);
     if (hit.found) {
-      LtcLobe lobe = lobe_of(view_of(hit, ray), alpha);
-      sum += vec4(ltc_reflectance(lobe, f0) * share_of(lobe, light_of(hit)), 1);
+      Lobe lobe = lobe_of(view_of(hit, ray), alpha);
+      sum += vec4(ltc_reflectance(plain(lobe), f0) * share_of(lobe, light_of(hit)), 1);
     }
   }
   result = sum / float(points);

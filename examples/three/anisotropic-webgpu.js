@@ -13,8 +13,8 @@ import {
 export { loadLobes } from './lobes.js';
 
 // (amplitude, Fresnel term) times the lobe's share of the light, and the cosine's share.
-const rectArea = ({ values, filter }) => {
-  let [textures, lookUp] = ['', 'ltc_look_up_field('];
+const rectArea = ({ values, filter, folded }) => {
+  let [textures, lookUp] = ['', folded ? 'ltc_look_up_folded_field(' : 'ltc_look_up_field('];
   if (values)
     [textures, lookUp] = filter
       ? ['values: texture_3d<f32>, values_sampler: sampler,',
@@ -34,10 +34,11 @@ fn ltc_rect_area(${textures}
   let c = to_tangent * center;
   let u = to_tangent * half_width;
   let v = to_tangent * half_height;
-  let lobe = ${lookUp}view, alpha_x, alpha_y);
+  let found = ${lookUp}view, alpha_x, alpha_y);
+  let lobe = found${folded ? '.lobe' : ''};
   let cosine = ltc_lobe_of_rows(vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(0.0, 1.0, 0.0),
                                 vec3<f32>(0.0, 0.0, 1.0), 1.0, 0.0);
-  let share = ltc_quad(lobe, c - u - v, c + u - v, c + u + v, c - u + v);
+  let share = ltc_quad${folded ? '_folded' : ''}(found, c - u - v, c + u - v, c + u + v, c - u + v);
   return vec3<f32>(lobe.amplitude * share, lobe.fresnel * share,
                    ltc_quad(cosine, c - u - v, c + u - v, c + u + v, c - u + v));
 }`;

@@ -13,16 +13,19 @@ export { loadLobes } from './lobes.js';
 const functions = '#include <lights_physical_pars_fragment>';
 const values = '#include <lights_physical_fragment>';
 
-const lookUp = ({ values, filter }) => values ? `
+const lookUp = ({ values, filter, folded }) => values ? `
 uniform highp sampler3D ltc_values;
 LtcLobe ltc_found(vec3 view, float alpha_x, float alpha_y) {
   return ltc_look_up_stacked${filter ? '' : '_exact'}(ltc_values, LTC_TABLE, view, alpha_x, alpha_y);
+}` : folded ? `
+LtcFoldedLobe ltc_found(vec3 view, float alpha_x, float alpha_y) {
+  return ltc_look_up_folded_field(view, alpha_x, alpha_y);
 }` : `
 LtcLobe ltc_found(vec3 view, float alpha_x, float alpha_y) {
   return ltc_look_up_field(view, alpha_x, alpha_y);
 }`;
 
-const rectArea = `
+const rectArea = ({ folded }) => `
 void ltc_rect_area(const in RectAreaLight light, const in vec3 position, const in vec3 normal,
     const in vec3 viewDir, const in vec3 clearcoatNormal, const in PhysicalMaterial material,
     inout ReflectedLight reflected) {
@@ -46,11 +49,12 @@ void ltc_rect_area(const in RectAreaLight light, const in vec3 position, const i
   vec3 view = toTangent * viewDir;
   view = normalize(vec3(view.xy, max(view.z, 1e-4)));
   vec3 c = toTangent * center, u = toTangent * light.halfWidth, v = toTangent * light.halfHeight;
-  LtcLobe lobe = ltc_found(view, alphas.x, alphas.y);
+  ${folded ? 'LtcFoldedLobe' : 'LtcLobe'} found = ltc_found(view, alphas.x, alphas.y);
+  LtcLobe lobe = found${folded ? '.lobe' : ''};
   vec3 f0 = material.specularColorBlended;
   vec3 reflectance = f0 * lobe.amplitude + (vec3(material.specularF90) - f0) * lobe.fresnel;
   reflected.directSpecular += light.color * reflectance *
-      ltc_quad(lobe, c - u - v, c + u - v, c + u + v, c - u + v);
+      ltc_quad${folded ? '_folded' : ''}(found, c - u - v, c + u - v, c + u + v, c - u + v);
   if (material.metalness < 1.0) {
     LtcLobe cosine = ltc_lobe_of_rows(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), 1.0, 0.0);
     reflected.directDiffuse += light.color * material.diffuseContribution *
@@ -67,7 +71,7 @@ export function lightByLobes(material, lobes, { widen = true } = {}) {
     shader.uniforms.ltc_values = { value: lobes.values };
     const chunk = ShaderChunk.lights_physical_fragment;
     shader.fragmentShader = shader.fragmentShader
-      .replace(functions, [functions, lobes.code, lookUp(lobes), rectArea].join('\n'))
+      .replace(functions, [functions, lobes.code, lookUp(lobes), rectArea(lobes)].join('\n'))
       .replace(values, widen ? chunk : chunk.replace('material.roughness += geometryRoughness;', ''));
   };
   material.customProgramCacheKey = () => `ltcfit ${lobes.id} ${widen}`;

@@ -30,18 +30,21 @@ let loaded = 0;
 
 // shaders: where shaders/glsl (for anisotropic.js) or shaders/wgsl (for anisotropic-webgpu.js) is
 // served. Either table: a path without its ending, .dds and .glsl or .wgsl; or field: a path to what
-// `ltcfit generate` or `convert` writes of a field, without its ending. filter: interpolate by the
-// texture unit, six fetches instead of 48, by weights of 8 bits on most GPUs.
+// `ltcfit generate` or `convert` writes of a field, folded or not, without its ending. filter:
+// interpolate by the texture unit, six fetches instead of 48, by weights of 8 bits on most GPUs.
 export async function loadLobes(shaders, { table, field, filter = false }) {
   const language = /wgsl\/?$/.test(shaders) ? 'wgsl' : 'glsl';
-  const parts = table
-    ? [`${shaders}/ltc_lobe`, `${shaders}/ltc_table`, table, `${shaders}/ltc_polygon`]
-    : [`${shaders}/ltc_lobe`, field, `${shaders}/ltc_field`, `${shaders}/ltc_polygon`];
-  const texts = parts.map(async (part) => (await fetched(`${part}.${language}`)).text());
+  const text = async (path) => (await fetched(`${path}.${language}`)).text();
+  const own = await text(table ?? field), folded = own.includes('ltcLookUpFolded');
+  const library = async (...names) =>
+    (await Promise.all(names.map((name) => text(`${shaders}/ltc_${name}`)))).join('\n');
+  const lookUp = folded ? ['folded', 'folded_field'] : table ? [] : ['field'];
+  const before = await library('lobe', 'polygon', ...(table ? ['table'] : []));
   return {
     id: ++loaded,
-    code: (await Promise.all(texts)).join('\n'),
+    code: [before, own, await library(...lookUp)].join('\n'),
     values: table ? await loadTexture(`${table}.dds`, filter) : null,
+    folded,
     filter
   };
 }

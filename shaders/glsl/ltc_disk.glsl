@@ -257,13 +257,15 @@ float ltc_ellipse(LtcLobe lobe, vec3 center, vec3 a, vec3 b) {
   return ltc_cut_ellipse(ellipse, lobe.m2);
 }
 
-// A sphere that does not contain the shaded point: the disk of the same cone of directions.
-float ltc_sphere(LtcLobe lobe, vec3 center, float radius) {
+// Of a sphere that does not contain the shaded point: the disk of the same cone of directions.
+struct LtcDisk {
+  vec3 center;
+  vec3 half_a;
+  vec3 half_b;
+};
+LtcDisk ltc_disk_of_sphere(vec3 center, float radius) {
   float squared = dot(center, center);
   float share = 1.0 - radius * radius / squared;
-  if (share <= 0.0) {
-    return 1.0;
-  }
   // Two directions upright on the centre's: Duff et al. 2017, "Building an Orthonormal Basis,
   // Revisited".
   vec3 n = center / sqrt(squared);
@@ -273,8 +275,19 @@ float ltc_sphere(LtcLobe lobe, vec3 center, float radius) {
   }
   float p = -1.0 / (side + n.z);
   float q = n.x * n.y * p;
-  float disk = radius * sqrt(share);
-  vec3 a = disk * vec3(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
-  vec3 b = disk * vec3(q, side + n.y * n.y * p, -n.y);
-  return ltc_ellipse(lobe, share * center, a, b);
+  float around = radius * sqrt(share);
+  LtcDisk disk;
+  disk.center = share * center;
+  disk.half_a = around * vec3(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
+  disk.half_b = around * vec3(q, side + n.y * n.y * p, -n.y);
+  return disk;
+}
+
+// A sphere that does not contain the shaded point.
+float ltc_sphere(LtcLobe lobe, vec3 center, float radius) {
+  if (dot(center, center) <= radius * radius) {
+    return 1.0;
+  }
+  LtcDisk disk = ltc_disk_of_sphere(center, radius);
+  return ltc_ellipse(lobe, disk.center, disk.half_a, disk.half_b);
 }

@@ -14,13 +14,14 @@ struct LtcTable {
   vec4 first;        // the axes' first and last values; angles in radians
   vec4 last;
   vec4 warp;         // 0 linear, 1 sqrt, 2 complement-sqrt, 3 half-sine
-  float storage;     // 0 matrix, 1 roughness-scaled, 2 mirror-frame, 3 inverse
+  float storage;     // 0 matrix, 1 roughness-scaled, 2 mirror-frame, 3 inverse, 4 folded
   float alpha_min;
+  float crease;      // of folded ones: h
 };
 
 // A query brought to what tables hold, alpha_x >= alpha_y and a view in the first quadrant (equations
 // 13 to 15 of Aakash et al. 2022), and the way back.
-struct LtcFolded {
+struct LtcReduced {
   vec3 view;
   float alpha;  // the larger roughness
   float beta;
@@ -36,14 +37,14 @@ struct LtcTexels {
   vec4 c;
 };
 
-LtcFolded ltc_fold(LtcTable table, vec3 view, float alpha_x, float alpha_y) {
-  LtcFolded folded;
-  folded.view = view;
-  folded.alpha = max(alpha_x, alpha_y);
-  folded.beta = min(alpha_x, alpha_y);
-  folded.signs = vec2(1.0, 1.0);
-  folded.swapped = 0.0;
-  folded.turn = vec2(1.0, 0.0);
+LtcReduced ltc_reduce(LtcTable table, vec3 view, float alpha_x, float alpha_y) {
+  LtcReduced reduced;
+  reduced.view = view;
+  reduced.alpha = max(alpha_x, alpha_y);
+  reduced.beta = min(alpha_x, alpha_y);
+  reduced.signs = vec2(1.0, 1.0);
+  reduced.swapped = 0.0;
+  reduced.turn = vec2(1.0, 0.0);
   if (table.size.y < 1.5 && table.size.w < 1.5) {
     float far = length(view.xy);
     vec2 own = vec2(cos(table.first.w), sin(table.first.w));
@@ -51,23 +52,23 @@ LtcFolded ltc_fold(LtcTable table, vec3 view, float alpha_x, float alpha_y) {
     if (far > 0.0) {
       unit = view.xy / far;
     }
-    folded.view = vec3(far * own, view.z);
-    folded.turn = vec2(dot(unit, own), unit.y * own.x - unit.x * own.y);
-    folded.beta = folded.alpha;
-    return folded;
+    reduced.view = vec3(far * own, view.z);
+    reduced.turn = vec2(dot(unit, own), unit.y * own.x - unit.x * own.y);
+    reduced.beta = reduced.alpha;
+    return reduced;
   }
   if (view.x < 0.0) {
-    folded.signs.x = -1.0;
+    reduced.signs.x = -1.0;
   }
   if (view.y < 0.0) {
-    folded.signs.y = -1.0;
+    reduced.signs.y = -1.0;
   }
-  folded.view = vec3(abs(view.x), abs(view.y), view.z);
+  reduced.view = vec3(abs(view.x), abs(view.y), view.z);
   if (alpha_y > alpha_x) {
-    folded.swapped = 1.0;
-    folded.view = vec3(abs(view.y), abs(view.x), view.z);
+    reduced.swapped = 1.0;
+    reduced.view = vec3(abs(view.y), abs(view.x), view.z);
   }
-  return folded;
+  return reduced;
 }
 
 // Where a value stands on an axis, in nodes.
@@ -91,19 +92,19 @@ float ltc_position(float value, float size, float first, float last, float warp)
 }
 
 // Of alpha, lambda, theta, phi.
-vec4 ltc_positions(LtcTable table, LtcFolded folded) {
+vec4 ltc_positions(LtcTable table, LtcReduced reduced) {
   float lambda = 1.0;
-  if (folded.alpha > 0.0) {
-    lambda = folded.beta / folded.alpha;
+  if (reduced.alpha > 0.0) {
+    lambda = reduced.beta / reduced.alpha;
   }
-  float away = length(folded.view.xy);
-  float theta = ltc_angle(away, folded.view.z);
+  float away = length(reduced.view.xy);
+  float theta = ltc_angle(away, reduced.view.z);
   float phi = 0.0;
   if (away > 0.0) {
-    phi = ltc_angle(folded.view.y, folded.view.x);
+    phi = ltc_angle(reduced.view.y, reduced.view.x);
   }
   return vec4(
-      ltc_position(folded.alpha, table.size.x, table.first.x, table.last.x, table.warp.x),
+      ltc_position(reduced.alpha, table.size.x, table.first.x, table.last.x, table.warp.x),
       ltc_position(lambda, table.size.y, table.first.y, table.last.y, table.warp.y),
       ltc_position(theta, table.size.z, table.first.z, table.last.z, table.warp.z),
       ltc_position(phi, table.size.w, table.first.w, table.last.w, table.warp.w));
@@ -147,16 +148,29 @@ vec4 ltc_fetch_exact(sampler3D values, LtcTable table, vec4 at, float volume) {
   return sum;
 }
 
-// The lobe of what was fetched. S is inverted, which is of the order of one, and not M; the roughness
-// and the mirror's rotation are put on either side of the inverse (docs/files.md, "Inverting").
-LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
+// What the columns of M are scaled by: the roughnesses, or alpha_x and s_y (src/field/field.h).
+vec3 ltc_column_scale(LtcTable table, LtcReduced reduced) {
+  float alpha = max(reduced.alpha, table.alpha_min);
+  float beta = max(reduced.beta, table.alpha_min);
+  if (table.storage > 3.5) {
+    float lambda = beta / alpha;
+    float least = 0.1 * alpha;
+    beta = alpha * sqrt(lambda * lambda + least * least * (1.0 - lambda * lambda));
+  }
+  return vec3(alpha, beta, 1.0);
+}
+
+// The reduced query's lobe of what was fetched. S is inverted, which is of the order of one, and not
+// M; the roughness and the mirror's rotation are put on either side of the inverse (docs/files.md,
+// "Inverting").
+LtcLobe ltc_reduced_lobe(LtcTable table, LtcReduced reduced, LtcTexels texels) {
   vec3 s0 = texels.a.xyz;
   vec3 s1 = vec3(texels.a.w, texels.b.x, texels.b.y);
   vec3 s2 = vec3(texels.b.z, texels.b.w, texels.c.x);
-  vec3 v = folded.view;
-  vec3 scale = vec3(max(folded.alpha, table.alpha_min), max(folded.beta, table.alpha_min), 1.0);
+  vec3 v = reduced.view;
+  vec3 scale = ltc_column_scale(table, reduced);
   LtcLobe lobe;
-  if (table.storage > 2.5) {
+  if (table.storage > 2.5 && table.storage < 3.5) {
     // "inverse": W is what is stored.
     lobe = ltc_lobe_of_inverse_rows(s0, s1, s2, texels.c.y, texels.c.z);
   } else {
@@ -190,8 +204,13 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
     lobe.w1 = (lobe.w1.x * q0 + lobe.w1.y * q1 + lobe.w1.z * q2) / scale.y;
     lobe.w2 = lobe.w2.x * q0 + lobe.w2.y * q1 + lobe.w2.z * q2;
   }
-  // Back, rows and columns alike, which the cosine does not feel: determinants keep their sign.
-  if (folded.swapped > 0.5) {
+  return lobe;
+}
+
+// And back, rows and columns alike, which the cosine does not feel: determinants keep their sign.
+LtcLobe ltc_unreduce(LtcTable table, LtcReduced reduced, LtcTexels texels) {
+  LtcLobe lobe = ltc_reduced_lobe(table, reduced, texels);
+  if (reduced.swapped > 0.5) {
     LtcLobe other = lobe;
     lobe.m0 = vec3(other.m1.y, other.m1.x, other.m1.z);
     lobe.m1 = vec3(other.m0.y, other.m0.x, other.m0.z);
@@ -200,7 +219,7 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
     lobe.w1 = vec3(other.w0.y, other.w0.x, other.w0.z);
     lobe.w2 = vec3(other.w2.y, other.w2.x, other.w2.z);
   }
-  vec3 signs = vec3(folded.signs.x, folded.signs.y, 1.0);
+  vec3 signs = vec3(reduced.signs.x, reduced.signs.y, 1.0);
   lobe.m0 = signs.x * signs * lobe.m0;
   lobe.m1 = signs.y * signs * lobe.m1;
   lobe.m2 = signs * lobe.m2;
@@ -208,7 +227,7 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
   lobe.w1 = signs.y * signs * lobe.w1;
   lobe.w2 = signs * lobe.w2;
   if (table.size.y < 1.5 && table.size.w < 1.5) {
-    lobe = ltc_turned(lobe, folded.turn.x, folded.turn.y);
+    lobe = ltc_turned(lobe, reduced.turn.x, reduced.turn.y);
   }
   return lobe;
 }
@@ -216,45 +235,45 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
 // view: unit, in the tangent frame. Roughnesses in either order.
 LtcLobe ltc_look_up(sampler3D values_0, sampler3D values_1, sampler3D values_2, LtcTable table,
                     vec3 view, float alpha_x, float alpha_y) {
-  LtcFolded folded = ltc_fold(table, view, alpha_x, alpha_y);
-  vec4 at = ltc_positions(table, folded);
+  LtcReduced reduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  vec4 at = ltc_positions(table, reduced);
   LtcTexels texels;
   texels.a = ltc_fetch(values_0, table, at, 0.0, 1.0);
   texels.b = ltc_fetch(values_1, table, at, 0.0, 1.0);
   texels.c = ltc_fetch(values_2, table, at, 0.0, 1.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }
 
 // The same of one texture with the three behind each other.
 LtcLobe ltc_look_up_stacked(sampler3D values, LtcTable table, vec3 view, float alpha_x,
                             float alpha_y) {
-  LtcFolded folded = ltc_fold(table, view, alpha_x, alpha_y);
-  vec4 at = ltc_positions(table, folded);
+  LtcReduced reduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  vec4 at = ltc_positions(table, reduced);
   LtcTexels texels;
   texels.a = ltc_fetch(values, table, at, 0.0, 3.0);
   texels.b = ltc_fetch(values, table, at, 1.0, 3.0);
   texels.c = ltc_fetch(values, table, at, 2.0, 3.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }
 
 LtcLobe ltc_look_up_exact(sampler3D values_0, sampler3D values_1, sampler3D values_2,
                           LtcTable table, vec3 view, float alpha_x, float alpha_y) {
-  LtcFolded folded = ltc_fold(table, view, alpha_x, alpha_y);
-  vec4 at = ltc_positions(table, folded);
+  LtcReduced reduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  vec4 at = ltc_positions(table, reduced);
   LtcTexels texels;
   texels.a = ltc_fetch_exact(values_0, table, at, 0.0);
   texels.b = ltc_fetch_exact(values_1, table, at, 0.0);
   texels.c = ltc_fetch_exact(values_2, table, at, 0.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }
 
 LtcLobe ltc_look_up_stacked_exact(sampler3D values, LtcTable table, vec3 view, float alpha_x,
                                   float alpha_y) {
-  LtcFolded folded = ltc_fold(table, view, alpha_x, alpha_y);
-  vec4 at = ltc_positions(table, folded);
+  LtcReduced reduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  vec4 at = ltc_positions(table, reduced);
   LtcTexels texels;
   texels.a = ltc_fetch_exact(values, table, at, 0.0);
   texels.b = ltc_fetch_exact(values, table, at, 1.0);
   texels.c = ltc_fetch_exact(values, table, at, 2.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }

@@ -71,12 +71,14 @@ float ltc_density(LtcLobe lobe, float3 omega) {
   return max(cosine.z, 0.0) * determinant / (LTC_PI * squared * squared);
 }
 
-// A unit direction so distributed, from two numbers on [0, 1).
-float3 ltc_direction(LtcLobe lobe, float u1, float u2) {
+// A unit direction so distributed, from two numbers on [0, 1); before it, that of the cosine.
+float3 ltc_cosine_direction(float u1, float u2) {
   float radius = sqrt(u1);
   float azimuth = 2.0 * LTC_PI * u2;
-  float3 cosine = float3(radius * cos(azimuth), radius * sin(azimuth), sqrt(max(1.0 - u1, 0.0)));
-  return normalize(ltc_from_cosine(lobe, cosine));
+  return float3(radius * cos(azimuth), radius * sin(azimuth), sqrt(max(1.0 - u1, 0.0)));
+}
+float3 ltc_direction(LtcLobe lobe, float u1, float u2) {
+  return normalize(ltc_from_cosine(lobe, ltc_cosine_direction(u1, u2)));
 }
 
 // The share of the lobe below the horizon, exact.

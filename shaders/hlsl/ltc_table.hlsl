@@ -15,13 +15,14 @@ struct LtcTable {
   float4 first;        // the axes' first and last values; angles in radians
   float4 last;
   float4 warp;         // 0 linear, 1 sqrt, 2 complement-sqrt, 3 half-sine
-  float storage;     // 0 matrix, 1 roughness-scaled, 2 mirror-frame, 3 inverse
+  float storage;     // 0 matrix, 1 roughness-scaled, 2 mirror-frame, 3 inverse, 4 folded
   float alpha_min;
+  float crease;      // of folded ones: h
 };
 
 // A query brought to what tables hold, alpha_x >= alpha_y and a view in the first quadrant (equations
 // 13 to 15 of Aakash et al. 2022), and the way back.
-struct LtcFolded {
+struct LtcReduced {
   float3 view;
   float alpha;  // the larger roughness
   float beta;
@@ -37,14 +38,14 @@ struct LtcTexels {
   float4 c;
 };
 
-LtcFolded ltc_fold(LtcTable table, float3 view, float alpha_x, float alpha_y) {
-  LtcFolded folded;
-  folded.view = view;
-  folded.alpha = max(alpha_x, alpha_y);
-  folded.beta = min(alpha_x, alpha_y);
-  folded.signs = float2(1.0, 1.0);
-  folded.swapped = 0.0;
-  folded.turn = float2(1.0, 0.0);
+LtcReduced ltc_reduce(LtcTable table, float3 view, float alpha_x, float alpha_y) {
+  LtcReduced reduced;
+  reduced.view = view;
+  reduced.alpha = max(alpha_x, alpha_y);
+  reduced.beta = min(alpha_x, alpha_y);
+  reduced.signs = float2(1.0, 1.0);
+  reduced.swapped = 0.0;
+  reduced.turn = float2(1.0, 0.0);
   if (table.size.y < 1.5 && table.size.w < 1.5) {
     float far = length(view.xy);
     float2 own = float2(cos(table.first.w), sin(table.first.w));
@@ -52,23 +53,23 @@ LtcFolded ltc_fold(LtcTable table, float3 view, float alpha_x, float alpha_y) {
     if (far > 0.0) {
       unit = view.xy / far;
     }
-    folded.view = float3(far * own, view.z);
-    folded.turn = float2(dot(unit, own), unit.y * own.x - unit.x * own.y);
-    folded.beta = folded.alpha;
-    return folded;
+    reduced.view = float3(far * own, view.z);
+    reduced.turn = float2(dot(unit, own), unit.y * own.x - unit.x * own.y);
+    reduced.beta = reduced.alpha;
+    return reduced;
   }
   if (view.x < 0.0) {
-    folded.signs.x = -1.0;
+    reduced.signs.x = -1.0;
   }
   if (view.y < 0.0) {
-    folded.signs.y = -1.0;
+    reduced.signs.y = -1.0;
   }
-  folded.view = float3(abs(view.x), abs(view.y), view.z);
+  reduced.view = float3(abs(view.x), abs(view.y), view.z);
   if (alpha_y > alpha_x) {
-    folded.swapped = 1.0;
-    folded.view = float3(abs(view.y), abs(view.x), view.z);
+    reduced.swapped = 1.0;
+    reduced.view = float3(abs(view.y), abs(view.x), view.z);
   }
-  return folded;
+  return reduced;
 }
 
 // Where a value stands on an axis, in nodes.
@@ -92,19 +93,19 @@ float ltc_position(float value, float size, float first, float last, float warp)
 }
 
 // Of alpha, lambda, theta, phi.
-float4 ltc_positions(LtcTable table, LtcFolded folded) {
+float4 ltc_positions(LtcTable table, LtcReduced reduced) {
   float lambda = 1.0;
-  if (folded.alpha > 0.0) {
-    lambda = folded.beta / folded.alpha;
+  if (reduced.alpha > 0.0) {
+    lambda = reduced.beta / reduced.alpha;
   }
-  float away = length(folded.view.xy);
-  float theta = ltc_angle(away, folded.view.z);
+  float away = length(reduced.view.xy);
+  float theta = ltc_angle(away, reduced.view.z);
   float phi = 0.0;
   if (away > 0.0) {
-    phi = ltc_angle(folded.view.y, folded.view.x);
+    phi = ltc_angle(reduced.view.y, reduced.view.x);
   }
   return float4(
-      ltc_position(folded.alpha, table.size.x, table.first.x, table.last.x, table.warp.x),
+      ltc_position(reduced.alpha, table.size.x, table.first.x, table.last.x, table.warp.x),
       ltc_position(lambda, table.size.y, table.first.y, table.last.y, table.warp.y),
       ltc_position(theta, table.size.z, table.first.z, table.last.z, table.warp.z),
       ltc_position(phi, table.size.w, table.first.w, table.last.w, table.warp.w));
@@ -152,16 +153,29 @@ float4 ltc_fetch_exact(Texture3D<float4> values, LtcTable table, float4 at, floa
   return sum;
 }
 
-// The lobe of what was fetched. S is inverted, which is of the order of one, and not M; the roughness
-// and the mirror's rotation are put on either side of the inverse (docs/files.md, "Inverting").
-LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
+// What the columns of M are scaled by: the roughnesses, or alpha_x and s_y (src/field/field.h).
+float3 ltc_column_scale(LtcTable table, LtcReduced reduced) {
+  float alpha = max(reduced.alpha, table.alpha_min);
+  float beta = max(reduced.beta, table.alpha_min);
+  if (table.storage > 3.5) {
+    float lambda = beta / alpha;
+    float least = 0.1 * alpha;
+    beta = alpha * sqrt(lambda * lambda + least * least * (1.0 - lambda * lambda));
+  }
+  return float3(alpha, beta, 1.0);
+}
+
+// The reduced query's lobe of what was fetched. S is inverted, which is of the order of one, and not
+// M; the roughness and the mirror's rotation are put on either side of the inverse (docs/files.md,
+// "Inverting").
+LtcLobe ltc_reduced_lobe(LtcTable table, LtcReduced reduced, LtcTexels texels) {
   float3 s0 = texels.a.xyz;
   float3 s1 = float3(texels.a.w, texels.b.x, texels.b.y);
   float3 s2 = float3(texels.b.z, texels.b.w, texels.c.x);
-  float3 v = folded.view;
-  float3 scale = float3(max(folded.alpha, table.alpha_min), max(folded.beta, table.alpha_min), 1.0);
+  float3 v = reduced.view;
+  float3 scale = ltc_column_scale(table, reduced);
   LtcLobe lobe;
-  if (table.storage > 2.5) {
+  if (table.storage > 2.5 && table.storage < 3.5) {
     // "inverse": W is what is stored.
     lobe = ltc_lobe_of_inverse_rows(s0, s1, s2, texels.c.y, texels.c.z);
   } else {
@@ -195,8 +209,13 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
     lobe.w1 = (lobe.w1.x * q0 + lobe.w1.y * q1 + lobe.w1.z * q2) / scale.y;
     lobe.w2 = lobe.w2.x * q0 + lobe.w2.y * q1 + lobe.w2.z * q2;
   }
-  // Back, rows and columns alike, which the cosine does not feel: determinants keep their sign.
-  if (folded.swapped > 0.5) {
+  return lobe;
+}
+
+// And back, rows and columns alike, which the cosine does not feel: determinants keep their sign.
+LtcLobe ltc_unreduce(LtcTable table, LtcReduced reduced, LtcTexels texels) {
+  LtcLobe lobe = ltc_reduced_lobe(table, reduced, texels);
+  if (reduced.swapped > 0.5) {
     LtcLobe other = lobe;
     lobe.m0 = float3(other.m1.y, other.m1.x, other.m1.z);
     lobe.m1 = float3(other.m0.y, other.m0.x, other.m0.z);
@@ -205,7 +224,7 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
     lobe.w1 = float3(other.w0.y, other.w0.x, other.w0.z);
     lobe.w2 = float3(other.w2.y, other.w2.x, other.w2.z);
   }
-  float3 signs = float3(folded.signs.x, folded.signs.y, 1.0);
+  float3 signs = float3(reduced.signs.x, reduced.signs.y, 1.0);
   lobe.m0 = signs.x * signs * lobe.m0;
   lobe.m1 = signs.y * signs * lobe.m1;
   lobe.m2 = signs * lobe.m2;
@@ -213,7 +232,7 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
   lobe.w1 = signs.y * signs * lobe.w1;
   lobe.w2 = signs * lobe.w2;
   if (table.size.y < 1.5 && table.size.w < 1.5) {
-    lobe = ltc_turned(lobe, folded.turn.x, folded.turn.y);
+    lobe = ltc_turned(lobe, reduced.turn.x, reduced.turn.y);
   }
   return lobe;
 }
@@ -222,45 +241,45 @@ LtcLobe ltc_unfold(LtcTable table, LtcFolded folded, LtcTexels texels) {
 LtcLobe ltc_look_up(Texture3D<float4> values_0, SamplerState values_0_sampler,
     Texture3D<float4> values_1, SamplerState values_1_sampler, Texture3D<float4> values_2,
     SamplerState values_2_sampler, LtcTable table, float3 view, float alpha_x, float alpha_y) {
-  LtcFolded folded = ltc_fold(table, view, alpha_x, alpha_y);
-  float4 at = ltc_positions(table, folded);
+  LtcReduced reduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  float4 at = ltc_positions(table, reduced);
   LtcTexels texels;
   texels.a = ltc_fetch(values_0, values_0_sampler, table, at, 0.0, 1.0);
   texels.b = ltc_fetch(values_1, values_1_sampler, table, at, 0.0, 1.0);
   texels.c = ltc_fetch(values_2, values_2_sampler, table, at, 0.0, 1.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }
 
 // The same of one texture with the three behind each other.
 LtcLobe ltc_look_up_stacked(Texture3D<float4> values, SamplerState values_sampler, LtcTable table,
     float3 view, float alpha_x, float alpha_y) {
-  LtcFolded folded = ltc_fold(table, view, alpha_x, alpha_y);
-  float4 at = ltc_positions(table, folded);
+  LtcReduced reduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  float4 at = ltc_positions(table, reduced);
   LtcTexels texels;
   texels.a = ltc_fetch(values, values_sampler, table, at, 0.0, 3.0);
   texels.b = ltc_fetch(values, values_sampler, table, at, 1.0, 3.0);
   texels.c = ltc_fetch(values, values_sampler, table, at, 2.0, 3.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }
 
 LtcLobe ltc_look_up_exact(Texture3D<float4> values_0, Texture3D<float4> values_1,
     Texture3D<float4> values_2, LtcTable table, float3 view, float alpha_x, float alpha_y) {
-  LtcFolded folded = ltc_fold(table, view, alpha_x, alpha_y);
-  float4 at = ltc_positions(table, folded);
+  LtcReduced reduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  float4 at = ltc_positions(table, reduced);
   LtcTexels texels;
   texels.a = ltc_fetch_exact(values_0, table, at, 0.0);
   texels.b = ltc_fetch_exact(values_1, table, at, 0.0);
   texels.c = ltc_fetch_exact(values_2, table, at, 0.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }
 
 LtcLobe ltc_look_up_stacked_exact(Texture3D<float4> values, LtcTable table, float3 view,
     float alpha_x, float alpha_y) {
-  LtcFolded folded = ltc_fold(table, view, alpha_x, alpha_y);
-  float4 at = ltc_positions(table, folded);
+  LtcReduced reduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  float4 at = ltc_positions(table, reduced);
   LtcTexels texels;
   texels.a = ltc_fetch_exact(values, table, at, 0.0);
   texels.b = ltc_fetch_exact(values, table, at, 1.0);
   texels.c = ltc_fetch_exact(values, table, at, 2.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }

@@ -260,13 +260,15 @@ fn ltc_ellipse(lobe: LtcLobe, center: vec3<f32>, a: vec3<f32>, b: vec3<f32>) -> 
   return ltc_cut_ellipse(ellipse, lobe.m2);
 }
 
-// A sphere that does not contain the shaded point: the disk of the same cone of directions.
-fn ltc_sphere(lobe: LtcLobe, center: vec3<f32>, radius: f32) -> f32 {
+// Of a sphere that does not contain the shaded point: the disk of the same cone of directions.
+struct LtcDisk {
+  center: vec3<f32>,
+  half_a: vec3<f32>,
+  half_b: vec3<f32>,
+}
+fn ltc_disk_of_sphere(center: vec3<f32>, radius: f32) -> LtcDisk {
   var squared: f32 = dot(center, center);
   var share: f32 = 1.0 - radius * radius / squared;
-  if (share <= 0.0) {
-    return 1.0;
-  }
   // Two directions upright on the centre's: Duff et al. 2017, "Building an Orthonormal Basis,
   // Revisited".
   var n: vec3<f32> = center / sqrt(squared);
@@ -276,8 +278,19 @@ fn ltc_sphere(lobe: LtcLobe, center: vec3<f32>, radius: f32) -> f32 {
   }
   var p: f32 = -1.0 / (side + n.z);
   var q: f32 = n.x * n.y * p;
-  var disk: f32 = radius * sqrt(share);
-  var a: vec3<f32> = disk * vec3<f32>(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
-  var b: vec3<f32> = disk * vec3<f32>(q, side + n.y * n.y * p, -n.y);
-  return ltc_ellipse(lobe, share * center, a, b);
+  var around: f32 = radius * sqrt(share);
+  var disk: LtcDisk;
+  disk.center = share * center;
+  disk.half_a = around * vec3<f32>(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
+  disk.half_b = around * vec3<f32>(q, side + n.y * n.y * p, -n.y);
+  return disk;
+}
+
+// A sphere that does not contain the shaded point.
+fn ltc_sphere(lobe: LtcLobe, center: vec3<f32>, radius: f32) -> f32 {
+  if (dot(center, center) <= radius * radius) {
+    return 1.0;
+  }
+  var disk: LtcDisk = ltc_disk_of_sphere(center, radius);
+  return ltc_ellipse(lobe, disk.center, disk.half_a, disk.half_b);
 }

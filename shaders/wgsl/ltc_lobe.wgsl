@@ -73,13 +73,14 @@ fn ltc_density(lobe: LtcLobe, omega: vec3<f32>) -> f32 {
   return max(cosine.z, 0.0) * determinant / (LTC_PI * squared * squared);
 }
 
-// A unit direction so distributed, from two numbers on [0, 1).
-fn ltc_direction(lobe: LtcLobe, u1: f32, u2: f32) -> vec3<f32> {
+// A unit direction so distributed, from two numbers on [0, 1); before it, that of the cosine.
+fn ltc_cosine_direction(u1: f32, u2: f32) -> vec3<f32> {
   var radius: f32 = sqrt(u1);
   var azimuth: f32 = 2.0 * LTC_PI * u2;
-  var cosine: vec3<f32> = vec3<f32>(radius * cos(azimuth), radius * sin(azimuth),
-      sqrt(max(1.0 - u1, 0.0)));
-  return normalize(ltc_from_cosine(lobe, cosine));
+  return vec3<f32>(radius * cos(azimuth), radius * sin(azimuth), sqrt(max(1.0 - u1, 0.0)));
+}
+fn ltc_direction(lobe: LtcLobe, u1: f32, u2: f32) -> vec3<f32> {
+  return normalize(ltc_from_cosine(lobe, ltc_cosine_direction(u1, u2)));
 }
 
 // The share of the lobe below the horizon, exact.

@@ -15,13 +15,14 @@ struct LtcTable {
   first: vec4<f32>,        // the axes' first and last values; angles in radians
   last: vec4<f32>,
   warp: vec4<f32>,         // 0 linear, 1 sqrt, 2 complement-sqrt, 3 half-sine
-  storage: f32,     // 0 matrix, 1 roughness-scaled, 2 mirror-frame, 3 inverse
+  storage: f32,     // 0 matrix, 1 roughness-scaled, 2 mirror-frame, 3 inverse, 4 folded
   alpha_min: f32,
+  crease: f32,      // of folded ones: h
 }
 
 // A query brought to what tables hold, alpha_x >= alpha_y and a view in the first quadrant (equations
 // 13 to 15 of Aakash et al. 2022), and the way back.
-struct LtcFolded {
+struct LtcReduced {
   view: vec3<f32>,
   alpha: f32,  // the larger roughness
   beta: f32,
@@ -37,14 +38,14 @@ struct LtcTexels {
   c: vec4<f32>,
 }
 
-fn ltc_fold(table: LtcTable, view: vec3<f32>, alpha_x: f32, alpha_y: f32) -> LtcFolded {
-  var folded: LtcFolded;
-  folded.view = view;
-  folded.alpha = max(alpha_x, alpha_y);
-  folded.beta = min(alpha_x, alpha_y);
-  folded.signs = vec2<f32>(1.0, 1.0);
-  folded.swapped = 0.0;
-  folded.turn = vec2<f32>(1.0, 0.0);
+fn ltc_reduce(table: LtcTable, view: vec3<f32>, alpha_x: f32, alpha_y: f32) -> LtcReduced {
+  var reduced: LtcReduced;
+  reduced.view = view;
+  reduced.alpha = max(alpha_x, alpha_y);
+  reduced.beta = min(alpha_x, alpha_y);
+  reduced.signs = vec2<f32>(1.0, 1.0);
+  reduced.swapped = 0.0;
+  reduced.turn = vec2<f32>(1.0, 0.0);
   if (table.size.y < 1.5 && table.size.w < 1.5) {
     var far: f32 = length(view.xy);
     var own: vec2<f32> = vec2<f32>(cos(table.first.w), sin(table.first.w));
@@ -52,23 +53,23 @@ fn ltc_fold(table: LtcTable, view: vec3<f32>, alpha_x: f32, alpha_y: f32) -> Ltc
     if (far > 0.0) {
       unit = view.xy / far;
     }
-    folded.view = vec3<f32>(far * own, view.z);
-    folded.turn = vec2<f32>(dot(unit, own), unit.y * own.x - unit.x * own.y);
-    folded.beta = folded.alpha;
-    return folded;
+    reduced.view = vec3<f32>(far * own, view.z);
+    reduced.turn = vec2<f32>(dot(unit, own), unit.y * own.x - unit.x * own.y);
+    reduced.beta = reduced.alpha;
+    return reduced;
   }
   if (view.x < 0.0) {
-    folded.signs.x = -1.0;
+    reduced.signs.x = -1.0;
   }
   if (view.y < 0.0) {
-    folded.signs.y = -1.0;
+    reduced.signs.y = -1.0;
   }
-  folded.view = vec3<f32>(abs(view.x), abs(view.y), view.z);
+  reduced.view = vec3<f32>(abs(view.x), abs(view.y), view.z);
   if (alpha_y > alpha_x) {
-    folded.swapped = 1.0;
-    folded.view = vec3<f32>(abs(view.y), abs(view.x), view.z);
+    reduced.swapped = 1.0;
+    reduced.view = vec3<f32>(abs(view.y), abs(view.x), view.z);
   }
-  return folded;
+  return reduced;
 }
 
 // Where a value stands on an axis, in nodes.
@@ -92,19 +93,19 @@ fn ltc_position(value: f32, size: f32, first: f32, last: f32, warp: f32) -> f32 
 }
 
 // Of alpha, lambda, theta, phi.
-fn ltc_positions(table: LtcTable, folded: LtcFolded) -> vec4<f32> {
+fn ltc_positions(table: LtcTable, reduced: LtcReduced) -> vec4<f32> {
   var lambda: f32 = 1.0;
-  if (folded.alpha > 0.0) {
-    lambda = folded.beta / folded.alpha;
+  if (reduced.alpha > 0.0) {
+    lambda = reduced.beta / reduced.alpha;
   }
-  var away: f32 = length(folded.view.xy);
-  var theta: f32 = ltc_angle(away, folded.view.z);
+  var away: f32 = length(reduced.view.xy);
+  var theta: f32 = ltc_angle(away, reduced.view.z);
   var phi: f32 = 0.0;
   if (away > 0.0) {
-    phi = ltc_angle(folded.view.y, folded.view.x);
+    phi = ltc_angle(reduced.view.y, reduced.view.x);
   }
   return vec4<f32>(
-      ltc_position(folded.alpha, table.size.x, table.first.x, table.last.x, table.warp.x),
+      ltc_position(reduced.alpha, table.size.x, table.first.x, table.last.x, table.warp.x),
       ltc_position(lambda, table.size.y, table.first.y, table.last.y, table.warp.y),
       ltc_position(theta, table.size.z, table.first.z, table.last.z, table.warp.z),
       ltc_position(phi, table.size.w, table.first.w, table.last.w, table.warp.w));
@@ -154,17 +155,29 @@ fn ltc_fetch_exact(values: texture_3d<f32>, table: LtcTable, at: vec4<f32>,
   return sum;
 }
 
-// The lobe of what was fetched. S is inverted, which is of the order of one, and not M; the roughness
-// and the mirror's rotation are put on either side of the inverse (docs/files.md, "Inverting").
-fn ltc_unfold(table: LtcTable, folded: LtcFolded, texels: LtcTexels) -> LtcLobe {
+// What the columns of M are scaled by: the roughnesses, or alpha_x and s_y (src/field/field.h).
+fn ltc_column_scale(table: LtcTable, reduced: LtcReduced) -> vec3<f32> {
+  var alpha: f32 = max(reduced.alpha, table.alpha_min);
+  var beta: f32 = max(reduced.beta, table.alpha_min);
+  if (table.storage > 3.5) {
+    var lambda: f32 = beta / alpha;
+    var least: f32 = 0.1 * alpha;
+    beta = alpha * sqrt(lambda * lambda + least * least * (1.0 - lambda * lambda));
+  }
+  return vec3<f32>(alpha, beta, 1.0);
+}
+
+// The reduced query's lobe of what was fetched. S is inverted, which is of the order of one, and not
+// M; the roughness and the mirror's rotation are put on either side of the inverse (docs/files.md,
+// "Inverting").
+fn ltc_reduced_lobe(table: LtcTable, reduced: LtcReduced, texels: LtcTexels) -> LtcLobe {
   var s0: vec3<f32> = texels.a.xyz;
   var s1: vec3<f32> = vec3<f32>(texels.a.w, texels.b.x, texels.b.y);
   var s2: vec3<f32> = vec3<f32>(texels.b.z, texels.b.w, texels.c.x);
-  var v: vec3<f32> = folded.view;
-  var scale: vec3<f32> = vec3<f32>(max(folded.alpha, table.alpha_min), max(folded.beta,
-      table.alpha_min), 1.0);
+  var v: vec3<f32> = reduced.view;
+  var scale: vec3<f32> = ltc_column_scale(table, reduced);
   var lobe: LtcLobe;
-  if (table.storage > 2.5) {
+  if (table.storage > 2.5 && table.storage < 3.5) {
     // "inverse": W is what is stored.
     lobe = ltc_lobe_of_inverse_rows(s0, s1, s2, texels.c.y, texels.c.z);
   } else {
@@ -198,8 +211,13 @@ fn ltc_unfold(table: LtcTable, folded: LtcFolded, texels: LtcTexels) -> LtcLobe 
     lobe.w1 = (lobe.w1.x * q0 + lobe.w1.y * q1 + lobe.w1.z * q2) / scale.y;
     lobe.w2 = lobe.w2.x * q0 + lobe.w2.y * q1 + lobe.w2.z * q2;
   }
-  // Back, rows and columns alike, which the cosine does not feel: determinants keep their sign.
-  if (folded.swapped > 0.5) {
+  return lobe;
+}
+
+// And back, rows and columns alike, which the cosine does not feel: determinants keep their sign.
+fn ltc_unreduce(table: LtcTable, reduced: LtcReduced, texels: LtcTexels) -> LtcLobe {
+  var lobe: LtcLobe = ltc_reduced_lobe(table, reduced, texels);
+  if (reduced.swapped > 0.5) {
     var other: LtcLobe = lobe;
     lobe.m0 = vec3<f32>(other.m1.y, other.m1.x, other.m1.z);
     lobe.m1 = vec3<f32>(other.m0.y, other.m0.x, other.m0.z);
@@ -208,7 +226,7 @@ fn ltc_unfold(table: LtcTable, folded: LtcFolded, texels: LtcTexels) -> LtcLobe 
     lobe.w1 = vec3<f32>(other.w0.y, other.w0.x, other.w0.z);
     lobe.w2 = vec3<f32>(other.w2.y, other.w2.x, other.w2.z);
   }
-  var signs: vec3<f32> = vec3<f32>(folded.signs.x, folded.signs.y, 1.0);
+  var signs: vec3<f32> = vec3<f32>(reduced.signs.x, reduced.signs.y, 1.0);
   lobe.m0 = signs.x * signs * lobe.m0;
   lobe.m1 = signs.y * signs * lobe.m1;
   lobe.m2 = signs * lobe.m2;
@@ -216,7 +234,7 @@ fn ltc_unfold(table: LtcTable, folded: LtcFolded, texels: LtcTexels) -> LtcLobe 
   lobe.w1 = signs.y * signs * lobe.w1;
   lobe.w2 = signs * lobe.w2;
   if (table.size.y < 1.5 && table.size.w < 1.5) {
-    lobe = ltc_turned(lobe, folded.turn.x, folded.turn.y);
+    lobe = ltc_turned(lobe, reduced.turn.x, reduced.turn.y);
   }
   return lobe;
 }
@@ -225,46 +243,46 @@ fn ltc_unfold(table: LtcTable, folded: LtcFolded, texels: LtcTexels) -> LtcLobe 
 fn ltc_look_up(values_0: texture_3d<f32>, values_0_sampler: sampler, values_1: texture_3d<f32>,
     values_1_sampler: sampler, values_2: texture_3d<f32>, values_2_sampler: sampler,
     table: LtcTable, view: vec3<f32>, alpha_x: f32, alpha_y: f32) -> LtcLobe {
-  var folded: LtcFolded = ltc_fold(table, view, alpha_x, alpha_y);
-  var at: vec4<f32> = ltc_positions(table, folded);
+  var reduced: LtcReduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  var at: vec4<f32> = ltc_positions(table, reduced);
   var texels: LtcTexels;
   texels.a = ltc_fetch(values_0, values_0_sampler, table, at, 0.0, 1.0);
   texels.b = ltc_fetch(values_1, values_1_sampler, table, at, 0.0, 1.0);
   texels.c = ltc_fetch(values_2, values_2_sampler, table, at, 0.0, 1.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }
 
 // The same of one texture with the three behind each other.
 fn ltc_look_up_stacked(values: texture_3d<f32>, values_sampler: sampler, table: LtcTable,
     view: vec3<f32>, alpha_x: f32, alpha_y: f32) -> LtcLobe {
-  var folded: LtcFolded = ltc_fold(table, view, alpha_x, alpha_y);
-  var at: vec4<f32> = ltc_positions(table, folded);
+  var reduced: LtcReduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  var at: vec4<f32> = ltc_positions(table, reduced);
   var texels: LtcTexels;
   texels.a = ltc_fetch(values, values_sampler, table, at, 0.0, 3.0);
   texels.b = ltc_fetch(values, values_sampler, table, at, 1.0, 3.0);
   texels.c = ltc_fetch(values, values_sampler, table, at, 2.0, 3.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }
 
 fn ltc_look_up_exact(values_0: texture_3d<f32>, values_1: texture_3d<f32>,
     values_2: texture_3d<f32>, table: LtcTable, view: vec3<f32>, alpha_x: f32,
     alpha_y: f32) -> LtcLobe {
-  var folded: LtcFolded = ltc_fold(table, view, alpha_x, alpha_y);
-  var at: vec4<f32> = ltc_positions(table, folded);
+  var reduced: LtcReduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  var at: vec4<f32> = ltc_positions(table, reduced);
   var texels: LtcTexels;
   texels.a = ltc_fetch_exact(values_0, table, at, 0.0);
   texels.b = ltc_fetch_exact(values_1, table, at, 0.0);
   texels.c = ltc_fetch_exact(values_2, table, at, 0.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }
 
 fn ltc_look_up_stacked_exact(values: texture_3d<f32>, table: LtcTable, view: vec3<f32>,
     alpha_x: f32, alpha_y: f32) -> LtcLobe {
-  var folded: LtcFolded = ltc_fold(table, view, alpha_x, alpha_y);
-  var at: vec4<f32> = ltc_positions(table, folded);
+  var reduced: LtcReduced = ltc_reduce(table, view, alpha_x, alpha_y);
+  var at: vec4<f32> = ltc_positions(table, reduced);
   var texels: LtcTexels;
   texels.a = ltc_fetch_exact(values, table, at, 0.0);
   texels.b = ltc_fetch_exact(values, table, at, 1.0);
   texels.c = ltc_fetch_exact(values, table, at, 2.0);
-  return ltc_unfold(table, folded, texels);
+  return ltc_unreduce(table, reduced, texels);
 }

@@ -35,7 +35,7 @@ void view(const Arguments& arguments, Files& files) {
     names.push_back(arguments.table_b);
   std::vector<Table> tables;
   for (const std::string& name : names) {
-    tables.push_back(read_input(name, arguments.layout, FoldedLobes::refused));
+    tables.push_back(read_input(name, arguments.layout));
     fill_missing_albedo(tables.back());
   }
   std::vector<ViewedTable> viewed;

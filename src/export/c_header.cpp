@@ -3,11 +3,13 @@
 // A table or a field as one C99 header: look-up, polygons, sampling, no dependency.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
 
 #include "core/write_file.h"
+#include "export/c_header_parts.h"
 #include "export/field_code.h"
 #include "export/file.h"
 #include "export/format.h"
@@ -18,158 +20,6 @@ namespace {
 
 // Entries as text take a hundred bytes: beyond this no compiler likes the file.
 constexpr std::size_t most_entries = 1 << 17;
-
-constexpr std::string_view head = R"(/* Linearly transformed cosines of {brdf}, by {generator}.
-   {what}
-   One header, C99 or C++, no dependency but the C library. Directions and points are of the tangent
-   frame: z the surface normal, x the direction of alpha_x. Shading with a light's polygon is
-     radiance * (F0 * ltc_amplitude(&lobe) + (1 - F0) * ltc_fresnel(&lobe)) * ltc_polygon(...). */
-#ifndef LTC_LOOK_UP_H
-#define LTC_LOOK_UP_H
-
-#include <math.h>
-
-/* What a look-up gives: M, row-major, clamped cosine to lobe, of positive determinant. */
-typedef struct ltc_lobe {{
-  float m[9];
-  float amplitude, fresnel;
-}} ltc_lobe;
-
-)";
-
-constexpr std::string_view tail = R"(
-static inline void ltc_matrix(const ltc_lobe *lobe, float m[9]) {
-  int i;
-  for (i = 0; i < 9; ++i) m[i] = lobe->m[i];
-}
-
-/* The integral of BRDF times cosine with F = 1, and that of its part by Schlick's (1 - v.h)^5. */
-static inline float ltc_amplitude(const ltc_lobe *lobe) { return lobe->amplitude; }
-static inline float ltc_fresnel(const ltc_lobe *lobe) { return lobe->fresnel; }
-
-/* The directions of count points, those below z = 0 cut off; of up to 2 count results how many. */
-static inline int ltc_clip_edge(const double from[3], const double to[3], double (*out)[3]) {
-  int made = 0, i;
-  if (from[2] >= 0) {
-    for (i = 0; i < 3; ++i) out[made][i] = from[i];
-    ++made;
-  }
-  if ((from[2] > 0 && to[2] < 0) || (from[2] < 0 && to[2] > 0)) {
-    const double a = fabs(to[2]), b = fabs(from[2]);
-    for (i = 0; i < 2; ++i) out[made][i] = a * from[i] + b * to[i];
-    out[made][2] = 0;
-    ++made;
-  }
-  return made;
-}
-
-static inline void ltc_unit(double v[3]) {
-  const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  int i;
-  for (i = 0; i < 3; ++i) v[i] = length > 0 ? v[i] / length : 0;
-}
-
-/* Of Lambert's formula what an edge adds, half of theta times the z of its normal. */
-static inline double ltc_edge(const double a[3], const double b[3]) {
-  const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const double n[3] = {a[1] * d[2] - a[2] * d[1], a[2] * d[0] - a[0] * d[2],
-                       a[0] * d[1] - a[1] * d[0]};
-  const double sine = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  const double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  return sine > 0 ? 0.5 * n[2] * atan2(sine, cosine) / sine : 0;
-}
-
-/* An edge of the clipped polygon into the space of the cosine, clipped there, and its integral;
-   `first` and `last` are the ends of what stands above the horizon so far. */
-typedef struct ltc_outline {
-  double first[3], last[3], sum;
-  int points;
-} ltc_outline;
-static inline void ltc_outline_add(ltc_outline *outline, const double point[3]) {
-  int i;
-  if (outline->points++ > 0)
-    outline->sum += ltc_edge(outline->last, point);
-  else
-    for (i = 0; i < 3; ++i) outline->first[i] = point[i];
-  for (i = 0; i < 3; ++i) outline->last[i] = point[i];
-}
-
-/* Share of the lobe's light that comes from a flat or bent polygon of `count` vertices in order, in
-   [0, 1]: any winding; what lies below the horizon is cut off, as the surface sees none of it.
-   Equation 11 of Heitz et al. 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed
-   Cosines". */
-static inline float ltc_polygon(const ltc_lobe *lobe, const float (*vertices)[3], int count) {
-  const float *const m = lobe->m;
-  /* The adjugate: the inverse but for a factor, which no direction feels. */
-  double inverse[9];
-  double above[4][3], cosine[3], before[3] = {0, 0, 0}, first[3] = {0, 0, 0}, cut[2][3];
-  ltc_outline outline = {{0, 0, 0}, {0, 0, 0}, 0, 0};
-  int i, j, k, n, have = 0;
-  float share;
-  for (i = 0; i < 3; ++i)
-    for (j = 0; j < 3; ++j) {
-      const int r = (j + 1) % 3, s = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-      inverse[3 * i + j] =
-          (double)m[3 * r + c] * m[3 * s + d] - (double)m[3 * r + d] * m[3 * s + c];
-    }
-  for (i = 0; i < count; ++i) {
-    double from[3], to[3];
-    for (j = 0; j < 3; ++j) {
-      from[j] = vertices[i][j];
-      to[j] = vertices[(i + 1) % count][j];
-    }
-    ltc_unit(from);
-    ltc_unit(to);
-    n = ltc_clip_edge(from, to, above);
-    for (k = 0; k < n; ++k) {
-      for (j = 0; j < 3; ++j)
-        cosine[j] = inverse[3 * j] * above[k][0] + inverse[3 * j + 1] * above[k][1] +
-                    inverse[3 * j + 2] * above[k][2];
-      ltc_unit(cosine);
-      if (have) {
-        const int made = ltc_clip_edge(before, cosine, cut);
-        for (j = 0; j < made; ++j) {
-          ltc_unit(cut[j]);
-          ltc_outline_add(&outline, cut[j]);
-        }
-      } else {
-        for (j = 0; j < 3; ++j) first[j] = cosine[j];
-        have = 1;
-      }
-      for (j = 0; j < 3; ++j) before[j] = cosine[j];
-    }
-  }
-  if (have) {
-    const int made = ltc_clip_edge(before, first, cut);
-    for (j = 0; j < made; ++j) {
-      ltc_unit(cut[j]);
-      ltc_outline_add(&outline, cut[j]);
-    }
-  }
-  if (outline.points > 0) outline.sum += ltc_edge(outline.last, outline.first);
-  share = (float)fabs(outline.sum / 3.14159265358979323846);
-  return share < 1 ? share : 1;
-}
-
-/* A unit direction distributed as the lobe (it may be below the horizon), from two numbers in
-   [0, 1). */
-static inline void ltc_sample(const ltc_lobe *lobe, float u1, float u2, float omega[3]) {
-  const float radius = sqrtf(u1), angle = 6.28318530717958648f * u2;
-  const float x = radius * cosf(angle), y = radius * sinf(angle);
-  const float z = sqrtf(u1 < 1 ? 1 - u1 : 0);
-  const float *const m = lobe->m;
-  float length = 0;
-  int i;
-  for (i = 0; i < 3; ++i) {
-    omega[i] = m[3 * i] * x + m[3 * i + 1] * y + m[3 * i + 2] * z;
-    length += omega[i] * omega[i];
-  }
-  length = sqrtf(length);
-  for (i = 0; i < 3; ++i) omega[i] /= length;
-}
-
-#endif
-)";
 
 constexpr std::string_view look_up_comment =
     R"(/* The lobe of roughnesses in either order, seen from theta, the angle from the normal in [0, pi/2),
@@ -184,11 +34,9 @@ std::string field_look_up(const Field& field) {
 )";
   text += field_statements(field, CodeLanguage::c);
   text +=
-      R"(  const ltc_lobe lobe = {{m00, m01, m02, m10, m11, m12, m20, m21, m22}, amplitude, fresnel};
-  return lobe;
-}
-)";
-  return text;
+      R"(  const ltc_lobe lobe = {{m00, m01, m02, m10, m11, m12, m20, m21, m22}, amplitude, fresnel)";
+  text += field.creases.empty() ? "" : ", fold_k, fold_g, fold_h";
+  return text + "};\n  return lobe;\n}\n";
 }
 
 std::string number(double value) {
@@ -215,18 +63,26 @@ std::string axis_function(std::string_view name, const Axis& axis) {
   return text + fmt::format("  return {} * x;\n}}\n", number(last));
 }
 
+std::size_t values_of_node(const Table& table) {
+  return is_folded(table) ? 13 : 11;
+}
+
 std::string table_data(const Table& table) {
   std::string text = fmt::format(
       "/* Of each node, in C order of alpha, lambda, theta, phi: nine values row by row, "
       "amplitude,\n"
-      "   Fresnel term. */\nstatic const float ltc_nodes[{}][11] = {{\n",
-      table.grid.size());
+      "   Fresnel term{}. */\nstatic const float ltc_nodes[{}][{}] = {{\n",
+      is_folded(table) ? ", kappa, gamma" : "", table.grid.size(), values_of_node(table));
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
     text += "{";
     for (std::size_t i = 0; i < 9; ++i)
       text += number(static_cast<double>(table.stored[9 * flat + i])) + ", ";
     text += number(static_cast<double>(table.amplitude[flat])) + ", " +
-            number(static_cast<double>(table.fresnel[flat])) + "},\n";
+            number(static_cast<double>(table.fresnel[flat]));
+    if (is_folded(table))
+      text += ", " + number(static_cast<double>(table.fold[2 * flat])) + ", " +
+              number(static_cast<double>(table.fold[2 * flat + 1]));
+    text += "},\n";
   }
   return text + "};\n\n";
 }
@@ -235,7 +91,6 @@ std::string table_data(const Table& table) {
 std::string_view storage_code(Storage storage) {
   switch (storage) {
     case Storage::matrix:
-    case Storage::folded:  // not written
       return "";
     case Storage::inverse:
       return R"(  {
@@ -256,12 +111,13 @@ std::string_view storage_code(Storage storage) {
     m[3 * i + 1] *= beta;
   }
 )";
+    case Storage::folded:
     case Storage::mirror_frame:
       return R"(  {
     const float x = sinf(theta) * cosf(phi), y = sinf(theta) * sinf(phi), z = cosf(theta);
     const float k = 1 / (1 + z);
     for (j = 0; j < 3; ++j) {
-      const float scale = j == 0 ? alpha : j == 1 ? beta : 1;
+      const float scale = j == 0 ? alpha : j == 1 ? width : 1;
       const float a = scale * m[j], b = scale * m[3 + j], c = scale * m[6 + j];
       m[j] = (z + y * y * k) * a - x * y * k * b - x * c;
       m[3 + j] = (z + x * x * k) * b - x * y * k * a - y * c;
@@ -314,6 +170,42 @@ std::string fold_code(const Grid& grid) {
                      least);
 }
 
+// s_y of field/field.h.
+constexpr std::string_view width_of_folded = R"(  {
+    const float least = 0.1f * alpha, l = beta / alpha;
+    width = alpha * sqrtf(l * l + least * least * (1 - l * l));
+  }
+)";
+
+constexpr std::string_view plain_rows =
+    R"(  /* Back from the folded lobe, rows and columns alike: the determinant keeps its sign. */
+  for (i = 0; i < 3; ++i)
+    for (j = 0; j < 3; ++j) {
+      const int r = swapped && i < 2 ? 1 - i : i, c = swapped && j < 2 ? 1 - j : j;
+      const float sign = (i == 0 ? sign_x : i == 1 ? sign_y : 1) *
+                         (j == 0 ? sign_x : j == 1 ? sign_y : 1);
+      turned[3 * i + j] = sign * m[3 * r + c];
+    }
+)";
+constexpr std::string_view folded_rows =
+    R"(  /* Back from the reduced query, rows alone: the fold feels what its columns are turned by, but for
+     their x's sign, which keeps the determinant positive. */
+  for (i = 0; i < 3; ++i)
+    for (j = 0; j < 3; ++j) {
+      const float mirrored = sign_x * sign_y * (swapped ? -1.0f : 1.0f);
+      turned[3 * i + j] = (i == 0 ? sign_x : i == 1 ? sign_y : 1) * (j == 0 ? mirrored : 1) *
+                          m[3 * (swapped && i < 2 ? 1 - i : i) + j];
+    }
+)";
+
+std::string fold_of_table(const Creases& creases) {
+  return fmt::format(R"(  lobe.k = alpha * alpha * sum[11] / width;
+  lobe.g = sum[12] < {0} ? sum[12] : {0};
+  lobe.h = {1};
+)",
+                     number(std::min(most_fold(creases), 1e30)), number(creases.front()));
+}
+
 std::string table_look_up(const Table& table) {
   const Grid& grid = table.grid;
   std::string text = table_data(table);
@@ -324,11 +216,12 @@ std::string table_look_up(const Table& table) {
   text += look_up_comment;
   text += fmt::format(R"(  static const int shape[4] = {{{}, {}, {}, {}}};
   ltc_lobe lobe;
-  float position[4], fraction[4], sum[11] = {{0}}, m[9], turned[9];
+  float position[4], fraction[4], sum[{}] = {{0}}, m[9], turned[9], width;
   int node[4], i, j, corner;
 )",
-                      shape[0], shape[1], shape[2], shape[3]);
+                      shape[0], shape[1], shape[2], shape[3], values_of_node(table));
   text += fold_code(grid);
+  text += is_folded(table) ? width_of_folded : "  width = beta;\n";
   text += R"(  for (i = 0; i < 4; ++i) {
     node[i] = (int)position[i];
     if (node[i] > shape[i] - 2) node[i] = shape[i] > 1 ? shape[i] - 2 : 0;
@@ -343,21 +236,13 @@ std::string table_look_up(const Table& table) {
       flat = flat * shape[i] + node[i] + (shape[i] > 1 ? side : 0);
     }
     if (weight != 0)
-      for (i = 0; i < 11; ++i) sum[i] += weight * ltc_nodes[flat][i];
+      for (i = 0; i < (int)(sizeof sum / sizeof *sum); ++i) sum[i] += weight * ltc_nodes[flat][i];
   }
   for (i = 0; i < 9; ++i) m[i] = sum[i];
 )";
   text += storage_code(table.storage);
-  text +=
-      R"(  /* Back from the folded lobe, rows and columns alike: the determinant keeps its sign. */
-  for (i = 0; i < 3; ++i)
-    for (j = 0; j < 3; ++j) {
-      const int r = swapped && i < 2 ? 1 - i : i, c = swapped && j < 2 ? 1 - j : j;
-      const float sign = (i == 0 ? sign_x : i == 1 ? sign_y : 1) *
-                         (j == 0 ? sign_x : j == 1 ? sign_y : 1);
-      turned[3 * i + j] = sign * m[3 * r + c];
-    }
-  for (j = 0; j < 3; ++j) {
+  text += is_folded(table) ? folded_rows : plain_rows;
+  text += R"(  for (j = 0; j < 3; ++j) {
     const float a = turned[j], b = turned[3 + j];
     lobe.m[j] = cosf(turn) * a - sinf(turn) * b;
     lobe.m[3 + j] = sinf(turn) * a + cosf(turn) * b;
@@ -365,13 +250,11 @@ std::string table_look_up(const Table& table) {
   }
   lobe.amplitude = sum[9];
   lobe.fresnel = sum[10];
-  (void)alpha, (void)beta;
-  return lobe;
-}
 )";
-  return text;
+  if (is_folded(table))
+    text += fold_of_table(table.creases);
+  return text + "  (void)alpha, (void)beta, (void)width;\n  return lobe;\n}\n";
 }
-
 // What a file says cannot end a comment.
 std::string in_comment(std::string text) {
   for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;)
@@ -379,15 +262,25 @@ std::string in_comment(std::string text) {
   return on_one_line(text);
 }
 
+constexpr std::string_view folded_comment =
+    ", and the\n"
+    "   fold before it: the lobe is that of M (x, y + k u, z + g u), u = max(0, |x| - h z), (x, y, "
+    "z) "
+    "a\n   direction of the clamped cosine";
+
 std::string header_of(const Table& table) {
   const std::size_t count = table.field ? table.field->terms.size() : table.grid.size();
   std::string text = fmt::format(
-      fmt::runtime(head), fmt::arg("brdf", table.grid.model->name()),
+      fmt::runtime(c_header::head), fmt::arg("fold", is_folded(table) ? folded_comment : ""),
+      fmt::arg("members", is_folded(table) ? "\n  float k, g, h;" : ""),
+      fmt::arg("brdf", table.grid.model->name()),
       fmt::arg("generator", table.generator.empty() ? "ltcfit" : in_comment(table.generator)),
       fmt::arg("what", table.field ? fmt::format("A field of {} numbers: no table.", count)
                                    : fmt::format("A table of {} nodes, interpolated.", count)));
   text += table.field ? field_look_up(*table.field) : table_look_up(table);
-  text += tail;
+  text += c_header::accessors;
+  text += is_folded(table) ? c_header::folded_polygon : c_header::plain_polygon;
+  text += c_header::tail;
   return text;
 }
 
@@ -399,6 +292,8 @@ Format header_format() {
           .asked = &OutputSettings::header,
           .contents = {.albedo = true, .loss = false},
           .of_materials = true,
+          .of_folded = true,
+          .of_one_pair = true,
           .ending_of_others = true,
           .limits = [](const Grid& grid, Storage, TextureLayout) -> std::string {
             return grid.size() > most_entries

@@ -16,12 +16,15 @@ Format field_function_format(const char* ending, CodeLanguage language) {
           .contents = {.albedo = true, .loss = false},
           .of_fields = language == CodeLanguage::javascript,
           .of_materials = true,
+          .of_folded = true,
+          .of_one_pair = true,
           .ending_of_others = true,
           .add = [language](platform::FileSet& set, const Table& table, const TableFiles& files,
                             const WriteOptions&) {
             add_file(set, files.front(),
-                     table.field ? field_function(*table.field, language)
-                                 : table_constant(table.grid, table.storage, language));
+                     table.field
+                         ? field_function(*table.field, language)
+                         : table_constant(table.grid, table.storage, language, table.creases));
           }};
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -208,8 +209,8 @@ void write_basis(Writer& writer, const Degrees& most) {
 void write_parts(Writer& writer, const Field& field) {
   for (std::size_t i = 0; i < field_part_count; ++i) {
     const auto part = static_cast<FieldPart>(i);
-    if (is_of_fold(part))
-      continue;  // of folded fields, which code knows nothing of
+    if (is_of_fold(part) && field.creases.empty())
+      continue;
     const bool of_albedo = is_of_albedo(part);
     // By order and degree in lambda a statement each, so that none is too long for a compiler.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<Product>> groups;
@@ -233,7 +234,25 @@ void write_parts(Writer& writer, const Field& field) {
   }
 }
 
-void write_matrix(Writer& writer) {
+// Equation (14) the other way: where axes were exchanged, rows and columns are, for a cosine does
+// not feel what its columns are turned by. A fold does: there the rows alone are exchanged, and the
+// first column is negated, which nothing feels, so that the determinant stays positive.
+void write_unswapped(Writer& writer, bool folded) {
+  const auto name = [](int row, int column) {
+    return row == 2 ? fmt::format("m2{}_", column) : fmt::format("n{}{}", row, column);
+  };
+  const auto other = [](int i) { return i == 2 ? 2 : 1 - i; };
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) {
+      const std::string swapped =
+          folded ? fmt::format("{}{}", column == 0 ? "-" : "", name(other(row), column))
+                 : name(other(row), other(column));
+      writer.constant(fmt::format("m{}{}", row, column),
+                      writer.chosen("swapped", swapped, name(row, column)));
+    }
+}
+
+void write_matrix(Writer& writer, bool folded) {
   const auto n = [&](double value) { return writer.number(static_cast<float>(value)); };
   writer.constant("far", writer.root("vz * vz + alpha * alpha * s2"));
   writer.constant("k", "alpha * alpha / far");
@@ -286,15 +305,15 @@ void write_matrix(Writer& writer) {
     writer.constant(fmt::format("m2{}_", column),
                     fmt::format("x * p0{0} + y * p1{0} + vz * p2{0}", column));
   }
-  const auto swap = [](int i) { return i == 2 ? 2 : 1 - i; };
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) {
-      const auto name = [](int r, int c) {
-        return r == 2 ? fmt::format("m2{}_", c) : fmt::format("n{}{}", r, c);
-      };
-      writer.constant(fmt::format("m{}{}", row, column),
-                      writer.chosen("swapped", name(swap(row), swap(column)), name(row, column)));
-    }
+  write_unswapped(writer, folded);
+}
+
+void write_fold(Writer& writer, const Field& field) {
+  const auto most = static_cast<float>(most_fold(field.creases));
+  writer.constant("fold_k", "alpha * alpha * f_kappa / beta_s");
+  writer.constant("fold_g",
+                  std::isfinite(most) ? writer.smaller("f_gamma", writer.number(most)) : "f_gamma");
+  writer.constant("fold_h", writer.number(static_cast<float>(field.creases.front())));
 }
 
 void write_albedo(Writer& writer) {
@@ -330,6 +349,34 @@ constexpr std::string_view what_it_is =
     "is\n"
     "// (F0 * amplitude + (1 - F0) * fresnel) * (share of the lobe's light, by the inverse of M).";
 
+constexpr std::string_view what_a_folded_one_is =
+    "The lobe that anisotropic GGX reflects, as a folded linearly transformed cosine: M fold(o), o "
+    "a\n"
+    "// direction of the clamped cosine, fold(x, y, z) = (x, y + k u, z + g u), u = max(0, |x| - h "
+    "z); the\n"
+    "// matrix M (tangent frame, positive determinant), amplitude, Fresnel term and k, g, h. "
+    "Shading is\n"
+    "// (F0 * amplitude + (1 - F0) * fresnel) * (share of the lobe's light: shaders/ltc_folded).";
+
+// What the function of a language differs by where it tells of a fold.
+struct FunctionParts {
+  std::string_view name, parameter, statement;
+};
+FunctionParts function_parts(const Field& field, CodeLanguage language) {
+  if (field.creases.empty())
+    return {"ltcLookUp", "", ""};
+  switch (language) {
+    case CodeLanguage::javascript:
+      return {"ltcLookUpFolded", "", ", fold: { k: fold_k, g: fold_g, h: fold_h }"};
+    case CodeLanguage::glsl:
+      return {"ltcLookUpFolded", ", out vec3 fold", "  fold = vec3(fold_k, fold_g, fold_h);\n"};
+    case CodeLanguage::hlsl:
+      return {"ltcLookUpFolded", ", out float3 fold", "  fold = float3(fold_k, fold_g, fold_h);\n"};
+    default:
+      return {"ltcLookUpFolded", ", fold: vec3<f32>", ", vec3<f32>(fold_k, fold_g, fold_h)"};
+  }
+}
+
 }  // namespace
 
 std::string float_literal(float value, std::string_view suffix) {
@@ -344,8 +391,10 @@ std::string field_statements(const Field& field, CodeLanguage language) {
   write_variables(writer, field);
   write_basis(writer, most_degrees(field));
   write_parts(writer, field);
-  write_matrix(writer);
+  write_matrix(writer, !field.creases.empty());
   write_albedo(writer);
+  if (!field.creases.empty())
+    write_fold(writer, field);
   std::string text = writer.take();
   // The one value that is no number.
   const std::string_view constant = spelling(language).constant;
@@ -368,50 +417,53 @@ std::size_t field_multiplications(const Field& field) {
 
 std::string field_function(const Field& field, CodeLanguage language) {
   const std::string body = field_statements(field, language);
-  const std::string what = std::string(what_it_is) + material_text(field);
+  const std::string what =
+      std::string(field.creases.empty() ? what_it_is : what_a_folded_one_is) + material_text(field);
+  const auto [name, parameter, statement] = function_parts(field, language);
   switch (language) {
     case CodeLanguage::javascript:
       return fmt::format(
           R"(// {}
 // `view` is a unit vector [x, y, z]; `matrix` is row-major.
-export function ltcLookUp(alpha_x, alpha_y, view) {{
+export function {}(alpha_x, alpha_y, view) {{
   const [vx, vy, vz] = view;
-{}  return {{ matrix: [m00, m01, m02, m10, m11, m12, m20, m21, m22], amplitude, fresnel }};
+{}  return {{ matrix: [m00, m01, m02, m10, m11, m12, m20, m21, m22], amplitude, fresnel{} }};
 }}
 )",
-          what, body);
+          what, name, body, statement);
     case CodeLanguage::glsl:
       return fmt::format(
           R"(// {}
 // GLSL ES 3.00 and later.
-void ltcLookUp(float alpha_x, float alpha_y, vec3 view, out mat3 M, out vec2 albedo) {{
+void {}(float alpha_x, float alpha_y, vec3 view, out mat3 M, out vec2 albedo{}) {{
   float vx = view.x, vy = view.y, vz = view.z;
 {}  M = mat3(m00, m10, m20, m01, m11, m21, m02, m12, m22);  // by columns
   albedo = vec2(amplitude, fresnel);
-}}
+{}}}
 )",
-          what, body);
+          what, name, parameter, body, statement);
     case CodeLanguage::hlsl:
       return fmt::format(
           R"(// {}
 // Multiply as mul(M, direction).
-void ltcLookUp(float alpha_x, float alpha_y, float3 view, out float3x3 M, out float2 albedo) {{
+void {}(float alpha_x, float alpha_y, float3 view, out float3x3 M, out float2 albedo{}) {{
   float vx = view.x, vy = view.y, vz = view.z;
 {}  M = float3x3(m00, m01, m02, m10, m11, m12, m20, m21, m22);
   albedo = float2(amplitude, fresnel);
-}}
+{}}}
 )",
-          what, body);
+          what, name, parameter, body, statement);
     case CodeLanguage::wgsl:
       return fmt::format(
-          R"(// {}
-struct LtcFieldLobe {{ matrix: mat3x3<f32>, amplitude: f32, fresnel: f32 }}
-fn ltcLookUp(alpha_x: f32, alpha_y: f32, view: vec3<f32>) -> LtcFieldLobe {{
+          R"(// {0}
+struct {5} {{ matrix: mat3x3<f32>, amplitude: f32, fresnel: f32{2} }}
+fn {1}(alpha_x: f32, alpha_y: f32, view: vec3<f32>) -> {5} {{
   let vx = view.x; let vy = view.y; let vz = view.z;
-{}  return LtcFieldLobe(mat3x3<f32>(m00, m10, m20, m01, m11, m21, m02, m12, m22), amplitude, fresnel);
+{3}  return {5}(mat3x3<f32>(m00, m10, m20, m01, m11, m21, m02, m12, m22), amplitude, fresnel{4});
 }}
 )",
-          what, body);
+          what, name, parameter, body, statement,
+          field.creases.empty() ? "LtcFieldLobe" : "LtcFoldedFieldLobe");
     case CodeLanguage::c:
       break;
   }

@@ -53,6 +53,7 @@ struct Format {
   bool of_fields = false;     // whether it holds fields alone
   bool of_materials = false;  // whether it holds fields of one material
   bool of_folded = false;     // whether it holds folded lobes; the others know of no fold
+  bool of_one_pair = false;   // and of these only those with one pair of creases
   bool without_axes = false;  // whether a reader is to be told the layout of the grid
   // Whether others use such names for files of their own, so that none is removed as an older one
   // of the set.
@@ -90,6 +91,7 @@ struct Format {
   }
   bool is_written(const Config& config) const {
     return is_asked(config) && (of_folded || config.storage != Storage::folded) &&
+           !(of_one_pair && config.storage == Storage::folded && config.field.creases.size() > 1) &&
            why_not(config.grid, config.storage, config.output.layout).empty();
   }
 };

@@ -42,19 +42,22 @@ Spelling spelling_of(CodeLanguage language) {
 
 }  // namespace
 
-std::string table_constant(const Grid& grid, Storage storage, CodeLanguage language) {
+std::string table_constant(const Grid& grid, Storage storage, CodeLanguage language,
+                           const Creases& creases) {
   const Spelling spelling = spelling_of(language);
   const auto axes = [&](auto of) { return of_axes(grid, spelling.vector, of); };
   return fmt::format(
       "// What ltc_look_up is told of this table: nodes, first and last values and warps along "
-      "alpha,\n// lambda, theta and phi; storage \"{}\"; alpha_min.\n{}\n    {},\n    {},\n    "
-      "{},\n    {},\n    {}, {}{};\n",
+      "alpha,\n// lambda, theta and phi; storage \"{}\"; alpha_min; a folded one's crease.\n{}\n   "
+      " {},\n    {},\n    "
+      "{},\n    {},\n    {}, {}, {}{};\n",
       name_of(storage), spelling.open,
       axes([](const Axis& axis) { return static_cast<double>(axis.size()); }),
       axes([](const Axis& axis) { return axis.first(); }),
       axes([](const Axis& axis) { return axis.last(); }),
       axes([](const Axis& axis) { return static_cast<double>(axis.warp); }),
-      number(static_cast<double>(storage)), number(grid.alpha_min), spelling.close);
+      number(static_cast<double>(storage)), number(grid.alpha_min),
+      number(creases.empty() ? 0 : creases.front()), spelling.close);
 }
 
 }  // namespace ltc

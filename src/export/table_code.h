@@ -13,6 +13,7 @@
 namespace ltc {
 
 // `constant LTC_TABLE` in GLSL, HLSL or WGSL, with a comment; throws InputError for others.
-std::string table_constant(const Grid& grid, Storage storage, CodeLanguage language);
+std::string table_constant(const Grid& grid, Storage storage, CodeLanguage language,
+                           const Creases& creases = {});
 
 }  // namespace ltc

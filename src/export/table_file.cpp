@@ -58,6 +58,10 @@ void add_table(platform::FileSet& set, const Table& table, const Format& format,
   if (is_folded(table) && !format.of_folded)
     throw InputError(
         fmt::format("{}: {} cannot hold folded lobes", files.front().string(), format.name));
+  if (is_folded(table) && format.of_one_pair && table.creases.size() > 1)
+    throw InputError(fmt::format(
+        "{}: {} holds folded lobes with one pair of creases, and these have pairs at {}",
+        files.front().string(), format.name, fmt::join(table.creases, ", ")));
   if (format.of_fields && !table.field)
     throw InputError(fmt::format("{}: {} holds fields, and this is a table of nodes",
                                  files.front().string(), format.name));

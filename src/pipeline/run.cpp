@@ -161,6 +161,11 @@ void require_formats(const Config& config) {
     if (config.storage == Storage::folded && !format.of_folded)
       throw InputError(
           fmt::format("{}, which [output] asks for, cannot hold folded lobes", format.name));
+    if (config.storage == Storage::folded && format.of_one_pair && config.field.creases.size() > 1)
+      throw InputError(
+          fmt::format("{}, which [output] asks for, holds folded lobes with one pair of creases; "
+                      "fit.second_crease = {}, expected 0",
+                      format.name, config.fit.second_crease));
     if (const std::string why = format.why_not(config.grid, config.storage, config.output.layout);
         !why.empty())
       throw InputError(fmt::format("{}, which [output] asks for, cannot hold this table: it {}",

@@ -134,8 +134,12 @@ void fit_albedo(const std::vector<Lobe>& lobes, const std::vector<FieldTerm>& po
           fit_part(at, cosine_pool, cosine, of_cosine, half, alone, parts[1]);
       });
   for (const Field& part : parts) {
-    field.terms.insert(field.terms.end(), part.terms.begin(), part.terms.end());
-    field.coefficients.insert(field.coefficients.end(), part.coefficients.begin(),
+    // Before those of a fold, which come last.
+    const auto place = std::ranges::find_if(
+                           field.terms, [](const FieldTerm& term) { return is_of_fold(term.part); }) -
+                       field.terms.begin();
+    field.terms.insert(field.terms.begin() + place, part.terms.begin(), part.terms.end());
+    field.coefficients.insert(field.coefficients.begin() + place, part.coefficients.begin(),
                               part.coefficients.end());
   }
 }

@@ -14,8 +14,10 @@
 #include "brdf/lobe_model.h"
 #include "core/error.h"
 #include "core/version.h"
+#include "export/entry_channels.h"
 #include "export/field_code.h"
 #include "export/image_bytes.h"
+#include "export/nearest.h"
 #include "export/texture_layout.h"
 #include "picture/color.h"
 #include "report/html.h"
@@ -30,9 +32,11 @@ constexpr std::string_view scripts[] = {"maths.js",    "state.js",    "data.js",
                                         "lights.js",   "graphics.js", "stage.js",
                                         "controls.js", "probe.js",    "main.js"};
 constexpr std::string_view shaders[] = {
-    "ltc_lobe.glsl",    "ltc_polygon.glsl", "ltc_disk.glsl",   "ltc_line.glsl", "ltc_table.glsl",
-    "ltc_texture.glsl", "scene.glsl",       "table.glsl",      "ggx.glsl",      "table_main.glsl",
-    "ggx_main.glsl",    "present.glsl",     "probe_main.glsl", "lobe_main.glsl"};
+    "ltc_lobe.glsl",         "ltc_polygon.glsl", "ltc_disk.glsl",   "ltc_line.glsl",
+    "ltc_table.glsl",        "ltc_texture.glsl", "ltc_folded.glsl", "ltc_folded_lights.glsl",
+    "ltc_folded_table.glsl", "scene.glsl",       "table.glsl",      "ggx.glsl",
+    "table_main.glsl",       "ggx_main.glsl",    "present.glsl",    "probe_main.glsl",
+    "lobe_main.glsl"};
 
 // FNV-1a of 32 bits: tells a page that was cut or altered on its way.
 std::uint32_t checksum(std::string_view text) {
@@ -73,9 +77,16 @@ Json axes_json(const Grid& grid) {
   return axes;
 }
 
-// The values as one texture, in 16 bits where that is what the file had and nothing is lost.
+// The values as one texture, of folded lobes their kappa and gamma behind them; in 16 bits where
+// that is what the file had and nothing is lost.
 Image texture_of(const Table& table) {
   Image image = images_of(table, TextureLayout::stacked).front();
+  if (is_folded(table)) {
+    for (const std::size_t entry : nearest_fitted(table))
+      image.values.insert(image.values.end(),
+                          {table.fold[2 * entry], table.fold[2 * entry + 1], 0, 0});
+    image.layers += image.layers / texels_per_entry;
+  }
   const bool halves =
       table.precision == Precision::half && std::ranges::all_of(image.values, [](float value) {
         return rounded(value, Precision::half) == value;
@@ -94,6 +105,8 @@ Json description(const ViewedTable& viewed) {
   json["alpha_min"] = table.grid.alpha_min;
   json["both_alphas"] = table.grid.layout == Layout::alphax_alphay;
   json["missing"] = std::ranges::count_if(table.status, [](Status s) { return !has_values(s); });
+  json["folded"] = is_folded(table);
+  json["crease"] = is_folded(table) ? table.creases.front() : 0;
   if (!table.field)
     return json;
   json["field"] = field_function(*table.field, CodeLanguage::glsl);
@@ -141,6 +154,10 @@ void require_viewable(std::span<const ViewedTable> tables) {
     if (const LobeModel& model = *viewed.table->grid.model; &model != &ggx())
       throw InputError(fmt::format("{}: a table of the BRDF {}; expected one of ggx", viewed.name,
                                    model.name()));
+  for (const ViewedTable& viewed : tables)
+    if (is_folded(*viewed.table) && viewed.table->creases.size() > 1)
+      throw InputError(fmt::format("{}: folded lobes with {} pairs of creases; expected one pair",
+                                   viewed.name, viewed.table->creases.size()));
 }
 
 std::string script() {

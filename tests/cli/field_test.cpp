@@ -114,7 +114,11 @@ TEST(FieldCommands, AFoldedFieldIsJudgedAndRenderedAndRefusedElsewhere) {
   folded[2] = LTCFIT_SOURCE_DIR "/config/folded-field.toml";
   const ProgramResult made = run_ltcfit(folded, folder.path());
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_EQ(names_in(folder / "t"), std::vector<std::string>{"ltc_field.json"});
+  // All that knows a fold.
+  EXPECT_EQ(names_in(folder / "t"),
+            (std::vector<std::string>{"ltc.0.exr", "ltc.1.exr", "ltc.2.exr", "ltc.3.exr",
+                                      "ltc.glsl", "ltc.h", "ltc.h5", "ltc.hlsl", "ltc.mjs",
+                                      "ltc.wgsl", "ltc_field.json"}));
   const ProgramResult judged =
       run_ltcfit({"validate", "t/ltc_field.json", "--set", "quality.queries=20"}, folder.path());
   // So small a field need not pass.
@@ -127,23 +131,27 @@ TEST(FieldCommands, AFoldedFieldIsJudgedAndRenderedAndRefusedElsewhere) {
                   .exit_code,
               0)
         << light;
-  for (const Arguments& arguments :
-       std::vector<Arguments>{{"fit", "--as-in", "t/ltc_field.json", "--entry", "1,1,1,1"},
-                              {"convert", "t/ltc_field.json", "-o", "t.npy"},
-                              {"bake", "t/ltc_field.json", "-o", "b.h5"},
-                              {"view", "t/ltc_field.json"},
-                              {"lookup", "t/ltc_field.json", "-q", "q.csv"},
-                              {"diff", "t/ltc_field.json", "t/ltc_field.json"}})
-    expect_error(run_ltcfit(arguments, folder.path()), 2, {"t/ltc_field.json", "a folded field"});
-  expect_error(run_ltcfit({"validate", "t/ltc_field.json", "--report", "p"}, folder.path()), 2,
-               {"t/ltc_field.json", "a folded field"});
-  folded.insert(folded.end(), {"--set", "output.header=true"});
-  expect_error(run_ltcfit(folded, folder.path()), 2, {"C header", "cannot hold a folded field"});
   expect_error(
-      run_ltcfit({"generate", "-o", "u", "--set", "field.second_crease=0.3"}, folder.path()), 2,
-      {"field.second_crease = 0.3", "field.crease = 0.4"});
-  expect_error(run_ltcfit({"generate", "-o", "u", "--set", "field.folded=true"}, folder.path()), 2,
-               {"field.folded", "field.size is 0"});
+      run_ltcfit({"fit", "--as-in", "t/ltc_field.json", "--entry", "1,1,1,1"}, folder.path()), 2,
+      {"t/ltc_field.json", "its lobes are folded"});
+  expect_error(run_ltcfit({"validate", "t/ltc_field.json", "--report", "p"}, folder.path()), 2,
+               {"t/ltc_field.json", "its lobes are folded"});
+  expect_error(run_ltcfit({"convert", "t/ltc_field.json", "-o", "t.npy"}, folder.path()), 2,
+               {"t.npy", "cannot hold folded lobes"});
+  EXPECT_EQ(run_ltcfit({"view", "t/ltc_field.json"}, folder.path()).exit_code, 0);
+  // Functions have one pair of creases.
+  folded.insert(folded.end(), {"--set", "fit.second_crease=1.2"});
+  expect_error(run_ltcfit(folded, folder.path()), 2,
+               {"which [output] asks for", "fit.second_crease = 1.2"});
+  nlohmann::json pairs = nlohmann::json::parse(read_file(folder / "t/ltc_field.json"));
+  pairs["creases"] = {0.4, 1.2};
+  folder.write("pairs_field.json", pairs.dump());
+  expect_error(run_ltcfit({"convert", "pairs_field.json", "-o", "p.glsl"}, folder.path()), 2,
+               {"p.glsl", "one pair of creases", "0.4, 1.2"});
+  expect_error(run_ltcfit({"view", "pairs_field.json"}, folder.path()), 2,
+               {"pairs_field.json", "2 pairs of creases"});
+  expect_error(run_ltcfit({"generate", "-o", "u", "--set", "table.storage=folded"}, folder.path()), 2,
+               {"table.storage = \"folded\"", "fit.lobe = \"single\""});
 }
 
 TEST(FieldCommands, WhatIsNoFieldIsRefused) {

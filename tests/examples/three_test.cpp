@@ -186,6 +186,30 @@ TEST_F(ThreeAnisotropic, RendersAsLtcfitDoesInWebGlAndWebGpu) {
     EXPECT_LT(variant["webgpu_from_webgl"], by_mesh(result["spheres"][0])) << name;
 }
 
+TEST_F(ThreeAnisotropic, RendersFoldedFieldsAsLtcfitDoes) {
+  ASSERT_NO_FATAL_FAILURE(make_table_and_field());
+  ASSERT_EQ(run_ltcfit({"generate", "--config", LTCFIT_SOURCE_DIR "/config/folded-field.toml", "-o",
+                        "folded", "--set", "field.size=128"},
+                       folder.path())
+                .exit_code,
+            0);
+  const ProgramResult done = run("table/ltc.h5", "folded/ltc_field.json", LTCFIT_PROGRAM,
+                                 {"--size", "96", "--samples", "256", "--material", "0.3,0.7",
+                                  "--material", "0.3,0.7,90", "--material", "0.4,0"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json result = nlohmann::json::parse(read_file(folder / "figures.json"));
+  ASSERT_EQ(result["spheres"].size(), 3u);
+  for (const nlohmann::json& sphere : result["spheres"]) {
+    EXPECT_GT(sphere["reference_mean"], 0.03) << sphere;
+    EXPECT_LT(sphere["rays_from_ltcfit"]["field"], by_rays) << sphere;
+    // Half as many pixels as above, which are half as many steps of the grid.
+    EXPECT_LT(sphere["webgl_from_ltcfit"]["field"], 2 * by_mesh(sphere)) << sphere;
+    if (sphere["webgpu_from_ltcfit"].contains("field")) {
+      EXPECT_LT(sphere["webgpu_from_ltcfit"]["field"], 2 * by_mesh(sphere)) << sphere;
+    }
+  }
+}
+
 TEST_F(ThreeAnisotropic, WhatItCannotRenderIsRefused) {
   folder.write("no.h5", "not a table");
   const std::string program = LTCFIT_PROGRAM;

@@ -40,6 +40,7 @@ int main(void) {
     const float quad[4][3] = {{-1.0f, -0.5f, 0.6f}, {1.0f, -0.8f, 0.4f}, {0.9f, 1.0f, -0.2f},
                               {-0.7f, 0.8f, 0.5f}};
     const ltc_lobe lobe = ltc_look_up(a, b, theta, phi);
+    const float up[3] = {0.6f, 0.0f, 0.8f};
     float m[9], omega[3], share = ltc_polygon(&lobe, quad, 4);
     int i;
     ltc_matrix(&lobe, m);
@@ -48,7 +49,7 @@ int main(void) {
     printf("%.9g %.9g %.9g ", (double)ltc_amplitude(&lobe), (double)ltc_fresnel(&lobe),
            (double)share);
     for (i = 0; i < 3; ++i) printf("%.9g ", (double)omega[i]);
-    printf("\n");
+    printf("%.9g\n", (double)ltc_density(&lobe, up));
   }
   return 0;
 }
@@ -109,7 +110,8 @@ double share_of_quad(const Eigen::Matrix3d& matrix) {
   return std::abs(LinearlyTransformed(matrix).integrate_polygon(clip_to_upper_hemisphere(quad)));
 }
 
-void expect_header_agrees(const Table& table) {
+// What the table's header prints of lobes(), compiled as C99; as C++ it compiles too.
+std::vector<std::vector<double>> rows_of_header(const Table& table) {
   const TemporaryDirectory folder;
   const Format* header = set_to_write(folder / "ltc.h", true).format;
   platform::FileSet set;
@@ -124,12 +126,30 @@ void expect_header_agrees(const Table& table) {
   const testing::Finished printed = testing::run(
       in_folder +
       "cc -std=c99 -Wall -Wextra -pedantic -Werror print.c -o print -lm && ./print < lobes");
-  ASSERT_EQ(printed.exit_code, 0) << printed.output;
+  EXPECT_EQ(printed.exit_code, 0) << printed.output;
   const auto rows = numbers_in(printed.output);
+  for (const std::vector<double>& row : rows)
+    EXPECT_EQ(row.size(), 16u);
+  return rows;
+}
+
+// A density is as large as its lobe is small.
+void expect_density(double found, double expected) {
+  EXPECT_NEAR(found, expected, 2e-5 * std::max(1.0, expected));
+}
+
+const Eigen::Vector3d up(0.6, 0, 0.8);
+
+Eigen::Vector3d cosine_sample() {
+  const double angle = 2 * std::numbers::pi * 0.6;
+  return {std::sqrt(0.3) * std::cos(angle), std::sqrt(0.3) * std::sin(angle), std::sqrt(0.7)};
+}
+
+void expect_header_agrees(const Table& table) {
+  const auto rows = rows_of_header(table);
   ASSERT_EQ(rows.size(), lobes().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     SCOPED_TRACE(lines_of({lobes()[i]}));
-    ASSERT_EQ(rows[i].size(), 15u);
     const LookUp expected = look_up(table, lobes()[i]);
     const Eigen::Matrix3d found = matrix_of(rows[i]);
     EXPECT_GT(found.determinant(), 0);
@@ -140,13 +160,69 @@ void expect_header_agrees(const Table& table) {
     // By the header's own matrix: the polygon's part alone; by the library's: the whole look-up.
     EXPECT_NEAR(rows[i][11], share_of_quad(found), 1e-6);
     EXPECT_NEAR(rows[i][11], share_of_quad(expected.matrix), 1e-5);
-    const double angle = 2 * std::numbers::pi * 0.6;
-    const Eigen::Vector3d sample =
-        (found * Eigen::Vector3d(std::sqrt(0.3) * std::cos(angle), std::sqrt(0.3) * std::sin(angle),
-                                 std::sqrt(0.7)))
-            .normalized();
+    const Eigen::Vector3d sample = (found * cosine_sample()).normalized();
     EXPECT_LT((sample - Eigen::Vector3d(rows[i][12], rows[i][13], rows[i][14])).norm(), 1e-5);
+    expect_density(rows[i][15], LinearlyTransformed(expected.matrix).density(up));
   }
+}
+
+// The signs of columns that `found` has others of than a matrix: x's is not felt by a fold, and y's
+// if k has the other sign too. Anything else fails.
+Eigen::Vector3d column_signs(const Eigen::Matrix3d& matrix, const Eigen::Matrix3d& found,
+                             double tolerance) {
+  Eigen::Vector3d signs;
+  for (int column = 0; column < 3; ++column) {
+    signs(column) = matrix.col(column).dot(found.col(column)) < 0 ? -1 : 1;
+    EXPECT_LT((matrix.col(column) - signs(column) * found.col(column)).norm(),
+              tolerance * matrix.col(column).norm());
+  }
+  EXPECT_EQ(signs.z(), 1);
+  EXPECT_GT(found.determinant(), 0);
+  return signs;
+}
+
+Table folded_table(const Creases& creases = usual_creases) {
+  return table_of_field(testing::synthetic_folded_field(creases), Grid::paper(2), Storage::matrix);
+}
+
+void expect_folded_header_agrees(const Table& table) {
+  const auto rows = rows_of_header(table);
+  ASSERT_EQ(rows.size(), lobes().size());
+  double most_k = 0, most_g = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    SCOPED_TRACE(lines_of({lobes()[i]}));
+    const LookUp expected = look_up(table, lobes()[i]);
+    const FoldedCosine lobe(expected.matrix, expected.fold, expected.creases);
+    const Eigen::Vector3d signs = column_signs(expected.matrix, matrix_of(rows[i]), 1e-5);
+    EXPECT_NEAR(rows[i][9], expected.amplitude, 1e-5);
+    EXPECT_NEAR(rows[i][10], expected.fresnel, 1e-5);
+    EXPECT_NEAR(rows[i][11], std::abs(lobe.integrate_polygon(clip_to_upper_hemisphere(quad))),
+                1e-5);
+    const Eigen::Vector3d sample = (expected.matrix * folded(signs.asDiagonal() * cosine_sample(),
+                                                             expected.fold, expected.creases))
+                                       .normalized();
+    EXPECT_LT((sample - Eigen::Vector3d(rows[i][12], rows[i][13], rows[i][14])).norm(), 1e-5);
+    expect_density(rows[i][15], lobe.density(up));
+    most_k = std::max(most_k, std::abs(expected.fold.k));
+    most_g = std::max(most_g, expected.fold.g);
+  }
+  // They bend.
+  EXPECT_GT(most_k, 1);
+  EXPECT_GT(most_g, 0.5);
+}
+
+TEST(CHeader, OfAFoldedFieldAgreesWithTheLibrary) {
+  for (const double crease : {0.4, 0.0, 1.5}) {
+    SCOPED_TRACE(crease);
+    expect_folded_header_agrees(folded_table({crease}));
+  }
+}
+
+TEST(CHeader, OfAFoldedTableAgreesWithTheLibrary) {
+  Table table =
+      table_of_field(testing::synthetic_folded_field(), Grid::paper({4, 3, 5, 3}), Storage::folded);
+  table.field.reset();
+  expect_folded_header_agrees(table);
 }
 
 Table node_table(Storage storage, const Grid& grid) {
@@ -182,23 +258,29 @@ TEST(CHeader, OfIsotropicTablesAgreesWithTheLibrary) {
   }
 }
 
-TEST(FieldCode, JavaScriptAgreesWithTheLibrary) {
+// What the module's function prints of lobes(): M, amplitude, Fresnel term and `more`.
+std::vector<std::vector<double>> rows_of_javascript(const Field& field, const std::string& function,
+                                                    const std::string& more) {
   const TemporaryDirectory folder;
-  folder.write("ltc.mjs", field_function(synthetic_field(), CodeLanguage::javascript));
-  std::string program = "import { ltcLookUp } from './ltc.mjs';\n";
-  std::vector<Lobe> asked = lobes();
-  for (const Lobe& lobe : asked) {
+  folder.write("ltc.mjs", field_function(field, CodeLanguage::javascript));
+  std::string program = fmt::format("import {{ {} as look }} from './ltc.mjs';\n", function);
+  for (const Lobe& lobe : lobes()) {
     const Eigen::Vector3d v = lobe.omega_v();
     program += fmt::format(
-        "{{ const l = ltcLookUp({}, {}, [{}, {}, {}]); console.log(...l.matrix, l.amplitude, "
-        "l.fresnel); }}\n",
-        lobe.alpha_x, lobe.alpha_y, v.x(), v.y(), v.z());
+        "{{ const l = look({}, {}, [{}, {}, {}]); console.log(...l.matrix, l.amplitude, "
+        "l.fresnel{}); }}\n",
+        lobe.alpha_x, lobe.alpha_y, v.x(), v.y(), v.z(), more);
   }
   folder.write("run.mjs", program);
   const testing::Finished printed =
       testing::run("cd " + folder.path().string() + " && NO_COLOR=1 node run.mjs");
-  ASSERT_EQ(printed.exit_code, 0) << printed.output;
-  const auto rows = numbers_in(printed.output);
+  EXPECT_EQ(printed.exit_code, 0) << printed.output;
+  return numbers_in(printed.output);
+}
+
+TEST(FieldCode, JavaScriptAgreesWithTheLibrary) {
+  const std::vector<Lobe> asked = lobes();
+  const auto rows = rows_of_javascript(synthetic_field(), "ltcLookUp", "");
   ASSERT_EQ(rows.size(), asked.size());
   const Table table = table_of_field(synthetic_field(), Grid::paper(2), Storage::matrix);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -207,6 +289,23 @@ TEST(FieldCode, JavaScriptAgreesWithTheLibrary) {
     EXPECT_LT(difference(expected.matrix, matrix_of(rows[i])), 1e-7) << lines_of({asked[i]});
     EXPECT_NEAR(rows[i][9], expected.amplitude, 1e-7);
     EXPECT_NEAR(rows[i][10], expected.fresnel, 1e-7);
+  }
+}
+
+TEST(FieldCode, JavaScriptOfAFoldedFieldAgreesWithTheLibrary) {
+  const Table table = folded_table();
+  const auto rows =
+      rows_of_javascript(*table.field, "ltcLookUpFolded", ", l.fold.k, l.fold.g, l.fold.h");
+  ASSERT_EQ(rows.size(), lobes().size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    SCOPED_TRACE(lines_of({lobes()[i]}));
+    const LookUp expected = look_up(table, lobes()[i]);
+    const Eigen::Vector3d signs = column_signs(expected.matrix, matrix_of(rows[i]), 1e-7);
+    EXPECT_NEAR(rows[i][9], expected.amplitude, 1e-7);
+    EXPECT_NEAR(rows[i][10], expected.fresnel, 1e-7);
+    EXPECT_NEAR(rows[i][11], signs.y() * expected.fold.k, 1e-6);
+    EXPECT_NEAR(rows[i][12], expected.fold.g, 1e-6);
+    EXPECT_NEAR(rows[i][13], 0.4, 1e-7);
   }
 }
 

@@ -115,7 +115,7 @@ TEST(FieldFit, AFoldedFieldIsNearerThanOneWithoutAFold) {
   FieldSettings settings = quick_settings();
   FieldReport plain, folded;
   quick_field(settings, 2, &plain);
-  settings.folded = true;
+  settings.creases = {0.4};
   const Field field = quick_field(settings, 2, &folded);
   EXPECT_EQ(field.creases, usual_creases);
   // Found: a third less with 96 numbers.
@@ -125,8 +125,7 @@ TEST(FieldFit, AFoldedFieldIsNearerThanOneWithoutAFold) {
     EXPECT_TRUE(is_one_to_one(found.fold, field.creases));
     EXPECT_EQ(found.fold == Fold{}, lambda == 1);
   }
-  settings.crease = 0.3;
-  settings.second_crease = 1;
+  settings.creases = two_pairs_of_creases;
   EXPECT_EQ(quick_field(settings, 2).creases, two_pairs_of_creases);
   // In the plane of alpha_x nothing bends to a side.
   EXPECT_EQ(lobe_of(field, {0.8, 0.2, 1.2, 0}).fold.k, 0);
@@ -135,7 +134,7 @@ TEST(FieldFit, AFoldedFieldIsNearerThanOneWithoutAFold) {
 TEST(FieldFit, GivesTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(quick_field(quick_settings(), 1), quick_field(quick_settings(), 3));
   FieldSettings folded = quick_settings();
-  folded.folded = true;
+  folded.creases = usual_creases;
   EXPECT_EQ(quick_field(folded, 1), quick_field(folded, 3));
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/random.h"
+#include "export/entry_channels.h"
 #include "export/field_code.h"
 #include "export/table_code.h"
 #include "export/texture_layout.h"
@@ -28,8 +29,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr std::uint32_t picture_size = 64, picture_levels = 7;
 
-Table without_field(const Grid& grid, Storage storage) {
-  Table table = table_of_field(ltc::testing::synthetic_field(), grid, storage);
+Table without_field(const Field& field, const Grid& grid, Storage storage) {
+  Table table = table_of_field(field, grid, storage);
   table.field.reset();
   return table;
 }
@@ -58,8 +59,14 @@ std::string text_of(const std::string& language, const std::string& name) {
 std::string library(const std::string& language, CodeLanguage code, const Tables& tables) {
   std::string text = text_of(language, "lobe") + text_of(language, "table") +
                      table_constant(tables.table.grid, tables.table.storage, code);
+  std::string folded =
+      table_constant(tables.folded.grid, tables.folded.storage, code, tables.folded.creases);
+  folded.replace(folded.find("LTC_TABLE"), 9, "LTC_FOLDED_TABLE");
+  text += folded;
   text += field_function(*tables.field.field, code);
-  for (const char* const name : {"field", "isotropic", "polygon", "disk", "line", "texture"})
+  text += field_function(*tables.folded_field.field, code);
+  for (const char* const name : {"field", "isotropic", "polygon", "disk", "line", "texture",
+                                 "folded", "folded_lights", "folded_field", "folded_table"})
     text += text_of(language, name);
   return text;
 }
@@ -85,21 +92,19 @@ Texture texture_of(const std::string& name, const Image& image, std::uint32_t de
           .values = image.values};
 }
 
-// As docs/files.md has the three volumes: slices of lambda + N_lambda alpha, of phi along theta.
-std::array<Texture, 3> volumes(const Table& table) {
+// As docs/files.md has the three volumes, or four: slices of lambda + N_lambda alpha, of phi along
+// theta.
+std::vector<Texture> volumes(const Table& table, const std::string& name) {
   const Grid& grid = table.grid;
-  std::array<Texture, 3> result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    result[k] = {.name = "values_" + std::to_string(k),
-                 .width = static_cast<std::uint32_t>(grid.phi.size()),
-                 .height = static_cast<std::uint32_t>(grid.theta.size()),
-                 .depth = static_cast<std::uint32_t>(grid.alpha.size() * grid.lambda.size())};
+  std::vector<Texture> result;
+  for (std::size_t k = 0; k < texels_of(table); ++k) {
+    result.push_back({.name = name + std::to_string(k),
+                      .width = static_cast<std::uint32_t>(grid.phi.size()),
+                      .height = static_cast<std::uint32_t>(grid.theta.size()),
+                      .depth = static_cast<std::uint32_t>(grid.alpha.size() * grid.lambda.size())});
     for (std::size_t flat = 0; flat < grid.size(); ++flat)
-      for (std::size_t c = 4 * k; c < 4 * k + 4; ++c)
-        result[k].values.push_back(c < 9     ? table.stored[9 * flat + c]
-                                   : c == 9  ? table.amplitude[flat]
-                                   : c == 10 ? table.fresnel[flat]
-                                             : 0.0f);
+      for (std::size_t c = 0; c < channels_per_texel; ++c)
+        result[k].values.push_back(channel_value(table, flat, channels_per_texel * k + c));
   }
   return result;
 }
@@ -127,7 +132,8 @@ Lobe lobe_of(const Case& asked) {
           std::atan2(asked.view.y(), asked.view.x())};
 }
 
-// Of a folded query. At phi = 90 degrees the library mirrors x, which shaders do not.
+// A look-up with a positive determinant. Of a reduced query alone where lobes are plain: at phi =
+// 90 degrees the library mirrors x, which shaders do not.
 LookUp of_folded(const Table& table, const Case& folded) {
   LookUp found = look_up(table, lobe_of(folded));
   if (found.matrix.determinant() < 0)
@@ -183,13 +189,20 @@ std::vector<Eigen::Vector3d> star(const Case& asked) {
 }
 
 // A strip upright on the plane of line and origin, so thin that its share is as its width.
-double line(const Eigen::Matrix3d& matrix, const Case& asked, double radius) {
+struct Strip {
+  std::vector<Eigen::Vector3d> vertices;
+  double half;
+};
+Strip strip_of(const Eigen::Matrix3d& matrix, const Case& asked) {
   const Eigen::Vector3d q = asked.p + asked.a, normal = asked.p.cross(q).normalized();
   // A millionth of the lobe's own width.
   const double half = 1e-6 * (matrix.transpose() * normal).norm() * asked.p.norm();
-  return share_of(matrix, {asked.p - half * normal, q - half * normal, q + half * normal,
-                           asked.p + half * normal}) *
-         radius / half;
+  return {{asked.p - half * normal, q - half * normal, q + half * normal, asked.p + half * normal},
+          half};
+}
+double line(const Eigen::Matrix3d& matrix, const Case& asked, double radius) {
+  const Strip strip = strip_of(matrix, asked);
+  return share_of(matrix, strip.vertices) * radius / strip.half;
 }
 
 // As docs/shading.md has the approximation by a sphere of the same form factor.
@@ -219,8 +232,13 @@ double as_sphere(const Eigen::Matrix3d& matrix, const Case& asked) {
   return clamped_cosine_share({cosine * axis, sine * a, sine * b});
 }
 
+constexpr double light_radius = 0.2f;
+
+double uniform(double x) {
+  return std::abs(x) - std::floor(std::abs(x));
+}
+
 double light_of(const Eigen::Matrix3d& matrix, const Case& asked) {
-  constexpr double radius = 0.2f;
   switch (asked.light) {
     case LightKind::quad:
       return share_of(matrix, quad(asked));
@@ -229,14 +247,98 @@ double light_of(const Eigen::Matrix3d& matrix, const Case& asked) {
     case LightKind::ellipse:
       return ltc_share(matrix, Ellipse{asked.p, asked.a, asked.b});
     case LightKind::sphere:
-      return ltc_share(matrix, disk_of_sphere(asked.p, radius));
+      return ltc_share(matrix, disk_of_sphere(asked.p, light_radius));
     case LightKind::line:
-      return std::min(line(matrix, asked, radius), 1.0);
+      return std::min(line(matrix, asked, light_radius), 1.0);
     case LightKind::quad_as_sphere:
       return as_sphere(matrix, asked);
-    default:
+    case LightKind::density:
       return LinearlyTransformed(matrix).density(asked.p.normalized());
+    case LightKind::direction:
+      return LinearlyTransformed(matrix)
+          .sample(uniform(asked.b.x()), uniform(asked.b.y()))
+          .dot(asked.a.normalized());
+    default:
+      return share_below_horizon(matrix);
   }
+}
+
+// The polygon of ltc_ellipse_folded; and of ltc_sphere_folded, whose disk it turns as Duff et al.
+// do.
+std::vector<Eigen::Vector3d> corners_of(const Eigen::Vector3d& center, const Eigen::Vector3d& a,
+                                        const Eigen::Vector3d& b) {
+  const double turn = pi / 12, scale = std::sqrt(turn / std::sin(turn));
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 24; ++i)
+    corners.push_back(center + scale * (std::cos(turn * i) * a + std::sin(turn * i) * b));
+  return corners;
+}
+std::vector<Eigen::Vector3d> corners_of_sphere(const Eigen::Vector3d& center, double radius) {
+  const Ellipse disk = disk_of_sphere(center, radius);
+  const Eigen::Vector3d n = center.normalized();
+  const double side = n.z() < 0 ? -1 : 1, p = -1 / (side + n.z()), q = n.x() * n.y() * p;
+  return corners_of(
+      disk.center,
+      disk.half_u.norm() * Eigen::Vector3d(1 + side * n.x() * n.x() * p, side * q, -side * n.x()),
+      disk.half_u.norm() * Eigen::Vector3d(q, side + n.y() * n.y() * p, -n.y()));
+}
+
+double folded_light_of(const Eigen::Matrix3d& matrix, const Fold& fold, const Creases& creases,
+                       const Case& asked) {
+  const FoldedCosine lobe(matrix, fold, creases);
+  const auto share = [&](const std::vector<Eigen::Vector3d>& vertices) {
+    return std::abs(lobe.integrate_polygon(clip_to_upper_hemisphere(vertices)));
+  };
+  switch (asked.light) {
+    case LightKind::star:
+      return share(star(asked));
+    case LightKind::ellipse:
+      return share(corners_of(asked.p, asked.a, asked.b));
+    case LightKind::sphere:
+      return share(corners_of_sphere(asked.p, light_radius));
+    case LightKind::line: {
+      const Strip strip = strip_of(matrix, asked);
+      return std::min(share(strip.vertices) * light_radius / strip.half, 1.0);
+    }
+    case LightKind::density:
+      return lobe.density(asked.p.normalized());
+    case LightKind::direction:
+      return lobe.sample(uniform(asked.b.x()), uniform(asked.b.y())).dot(asked.a.normalized());
+    case LightKind::below_horizon:
+      return share_below_horizon(LtcLobe(matrix, fold, creases));
+    default:
+      return share(quad(asked));
+  }
+}
+
+// Of a table rows alone are unfolded; a field's function goes on into the other quadrants, where
+// columns are mirrored too and k is of the other sign where y is. The first column has the sign of
+// a positive determinant.
+Expected expected_folded(const Table& table, const Case& asked) {
+  const bool swapped = asked.alpha_y > asked.alpha_x;
+  Case reduced = asked;
+  if (swapped) {
+    std::swap(reduced.view.x(), reduced.view.y());
+    std::swap(reduced.alpha_x, reduced.alpha_y);
+  }
+  const Eigen::Vector3d signs(reduced.view.x() < 0 ? -1 : 1, reduced.view.y() < 0 ? -1 : 1, 1);
+  reduced.view = reduced.view.cwiseAbs();
+  const LookUp found = of_folded(table, reduced);
+  Eigen::Matrix3d matrix = signs.asDiagonal() * found.matrix;
+  Fold fold = found.fold;
+  if (table.field) {
+    matrix = (matrix * signs.asDiagonal()).eval();
+    fold.k *= signs.y();
+  }
+  if (swapped)
+    matrix.row(0).swap(matrix.row(1));
+  if (matrix.determinant() < 0)
+    matrix.col(0) *= -1;
+  return {matrix,
+          found.amplitude,
+          found.fresnel,
+          folded_light_of(matrix, fold, found.creases, asked),
+          {fold.k, fold.g, found.creases.front()}};
 }
 
 Eigen::Vector3d picture_of(const Eigen::Matrix3d& matrix, const Case& asked) {
@@ -264,9 +366,16 @@ Eigen::Vector3d picture_of(const Eigen::Matrix3d& matrix, const Case& asked) {
 
 }  // namespace
 
-Tables make_tables(const Grid& grid, Storage storage) {
-  return {without_field(grid, storage), without_field(engines_grid(), Storage::inverse),
-          table_of_field(ltc::testing::synthetic_field(), Grid::paper(2), Storage::matrix)};
+Tables make_tables(const Grid& grid, Storage storage, const Creases& creases) {
+  const auto of_field = [](const Field& field) {
+    return table_of_field(field, Grid::paper(2), Storage::matrix);
+  };
+  const Field plain = ltc::testing::synthetic_field(),
+              folded = ltc::testing::synthetic_folded_field(creases);
+  return {without_field(plain, grid, storage),
+          without_field(plain, engines_grid(), Storage::inverse), of_field(plain), of_field(folded),
+          // Of an axis of one node nothing is folded.
+          without_field(folded, is_isotropic(grid) ? Grid::paper(3) : grid, Storage::folded)};
 }
 
 std::vector<Case> make_cases(std::size_t count, std::uint64_t seed) {
@@ -330,25 +439,27 @@ Job make_job(const Tables& tables, const std::vector<Case>& cases) {
     add(one.a, static_cast<double>(one.look_up));
     add(one.b, static_cast<double>(one.light));
   }
-  const std::array<Texture, 3> of_table = volumes(tables.table);
-  Texture stacked = of_table[0];
+  job.textures = volumes(tables.table, "values_");
+  Texture stacked = job.textures.front();
   stacked.name = "stacked";
   stacked.depth *= 3;
   for (std::size_t k = 1; k < 3; ++k)
-    stacked.values.insert(stacked.values.end(), of_table[k].values.begin(),
-                          of_table[k].values.end());
+    stacked.values.insert(stacked.values.end(), job.textures[k].values.begin(),
+                          job.textures[k].values.end());
   const std::vector<Image> images = images_of(tables.isotropic, TextureLayout::ltc);
-  job.textures = {of_table[0],
-                  of_table[1],
-                  of_table[2],
-                  stacked,
-                  texture_of("inverses", images[0], 0),
-                  texture_of("terms", images[1], 0),
-                  picture()};
+  for (const Texture& texture : {stacked, texture_of("inverses", images[0], 0),
+                                 texture_of("terms", images[1], 0), picture()})
+    job.textures.push_back(texture);
+  for (const Texture& texture : volumes(tables.folded, "folded_"))
+    job.textures.push_back(texture);
   return job;
 }
 
 Expected expected(const Tables& tables, const Case& asked) {
+  if (asked.look_up == LookUpKind::folded_field)
+    return expected_folded(tables.folded_field, asked);
+  if (is_folded(asked.look_up))
+    return expected_folded(tables.folded, asked);
   const Table& table = asked.look_up == LookUpKind::isotropic ? tables.isotropic
                        : asked.look_up == LookUpKind::field   ? tables.field
                                                               : tables.table;
@@ -358,7 +469,7 @@ Expected expected(const Tables& tables, const Case& asked) {
   result.amplitude = found.amplitude;
   result.fresnel = found.fresnel;
   result.share = light_of(result.matrix, asked);
-  result.picture = picture_of(result.matrix, asked);
+  result.seen = picture_of(result.matrix, asked);
   return result;
 }
 

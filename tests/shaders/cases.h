@@ -12,10 +12,35 @@
 namespace ltc::test::shaders {
 
 // How a case looks up and which light it has, numbered as in cases.glsl.
-enum class LookUpKind { exact, stacked_exact, filtered, stacked_filtered, isotropic, field };
-constexpr int look_up_kinds = 6;
-enum class LightKind { quad, star, ellipse, sphere, line, quad_as_sphere, density };
-constexpr int light_kinds = 7;
+enum class LookUpKind {
+  exact,
+  stacked_exact,
+  filtered,
+  stacked_filtered,
+  isotropic,
+  field,
+  folded_field,
+  folded_exact,
+  folded_filtered
+};
+constexpr int look_up_kinds = 9;
+constexpr bool is_folded(LookUpKind kind) {
+  return kind >= LookUpKind::folded_field;
+}
+// The last three are no lights: a density, a sample, the share below the horizon. Of folded lobes
+// quad_as_sphere is a quad.
+enum class LightKind {
+  quad,
+  star,
+  ellipse,
+  sphere,
+  line,
+  quad_as_sphere,
+  density,
+  direction,
+  below_horizon
+};
+constexpr int light_kinds = 9;
 
 struct Case {
   Eigen::Vector3d view;
@@ -27,9 +52,9 @@ struct Case {
 
 // What the tables are: of a field that no fit made, over a grid in a storage; and isotropic ones.
 struct Tables {
-  Table table, isotropic, field;
+  Table table, isotropic, field, folded_field, folded;
 };
-Tables make_tables(const Grid& grid, Storage storage);
+Tables make_tables(const Grid& grid, Storage storage, const Creases& creases = usual_creases);
 
 // In all quadrants, and at the corners of the domain: roughnesses of 0 to 1 in both orders, views
 // from the normal to the horizon, lights that either horizon cuts and that lie below.
@@ -38,11 +63,12 @@ std::vector<Case> make_cases(std::size_t count, std::uint64_t seed);
 Job make_job(const Tables& tables, const std::vector<Case>& cases);
 
 // By the library, in double precision: M as shaders unfold it, rows and columns alike; the terms;
-// the share of the light; what the picture (whose texels hold place and level) shows.
+// the share of the light; what the picture (whose texels hold place and level) shows, or k, g and
+// h.
 struct Expected {
   Eigen::Matrix3d matrix;
   double amplitude, fresnel, share;
-  Eigen::Vector3d picture;
+  Eigen::Vector3d seen;
 };
 Expected expected(const Tables& tables, const Case& asked);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
 // OpenGL and OpenGL ES through EGL, without a display: a fragment for each case.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "shaders/job.h"
@@ -13,10 +14,17 @@
 
 namespace ltc::test::shaders {
 
+std::string for_textures(const Job& job, std::string_view pattern) {
+  std::string text;
+  for (std::size_t i = 0; i < job.textures.size(); ++i) {
+    const Texture& texture = job.textures[i];
+    text += fmt::format(fmt::runtime(pattern), texture.name, i, texture.depth > 0 ? 3 : 2);
+  }
+  return text;
+}
+
 std::string fragment_of(const Job& job) {
-  return job.glsl + R"(
-uniform sampler3D values_0, values_1, values_2, stacked;
-uniform sampler2D inverses, terms, picture, asked;
+  return job.glsl + for_textures(job, "uniform sampler{2}D {0};\n") + R"(uniform sampler2D asked;
 uniform int which;
 layout(location = 0) out vec4 answer;
 vec4 input_of(int item, int i) {
@@ -25,8 +33,8 @@ vec4 input_of(int item, int i) {
 }
 void main() {
   int item = int(gl_FragCoord.x) + 1024 * int(gl_FragCoord.y);
-  LtcCase found = ltc_case(values_0, values_1, values_2, stacked, inverses, terms, picture,
-                           input_of(item, 0), input_of(item, 1), input_of(item, 2),
+  LtcCase found = ltc_case()" +
+         for_textures(job, "{0}, ") + R"(input_of(item, 0), input_of(item, 1), input_of(item, 2),
                            input_of(item, 3));
   answer = which == 0 ? found.r0 : which == 1 ? found.r1 : which == 2 ? found.r2 :
            which == 3 ? found.r3 : which == 4 ? found.r4 : found.r5;

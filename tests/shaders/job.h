@@ -3,11 +3,11 @@
 // What a driver is asked in a test of shaders/, and how each of them is asked.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ltc::test::shaders {
@@ -26,7 +26,7 @@ constexpr std::size_t inputs = 4, outputs = 6;  // of a case, in vectors of four
 struct Job {
   std::string glsl, hlsl, wgsl;
   std::vector<float> input;  // 4 inputs a case
-  std::array<Texture, 7> textures;
+  std::vector<Texture> textures;  // in the order of ltc_case's parameters
 
   std::size_t count() const { return input.size() / (4 * inputs); }
 };
@@ -45,6 +45,10 @@ enum class VulkanSource { glsl, hlsl };
 Results run_vulkan(const Job& job, VulkanSource source);
 Results run_webgpu(const Job& job);
 Results run_webgl(const Job& job);
+
+// The pattern for each texture, one after another: {0} its name, {1} its number, {2} 2 or 3, its
+// dimensions.
+std::string for_textures(const Job& job, std::string_view pattern);
 
 // GLSL of a fragment that writes output `which` of the case at its pixel, `width` cases a row; what
 // stands before "#version" and after is the caller's.

@@ -3,6 +3,8 @@
 // Vulkan, without a display: a compute shader, in GLSL or HLSL, by way of glslangValidator.
 #include "shaders/job.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 
 #include "support/program.h"
@@ -16,50 +18,18 @@ namespace ltc::test::shaders {
 #ifdef LTCFIT_HAS_VULKAN
 namespace {
 
-constexpr const char* glsl_entry = R"(
+// Two buffers, the images, and in HLSL a sampler.
+std::string glsl_entry(const Job& job) {
+  return R"(
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Asked { vec4 asked[]; };
 layout(set = 0, binding = 1, std430) buffer Answers { vec4 answers[]; };
-layout(set = 0, binding = 2) uniform sampler3D values_0;
-layout(set = 0, binding = 3) uniform sampler3D values_1;
-layout(set = 0, binding = 4) uniform sampler3D values_2;
-layout(set = 0, binding = 5) uniform sampler3D stacked;
-layout(set = 0, binding = 6) uniform sampler2D inverses;
-layout(set = 0, binding = 7) uniform sampler2D terms;
-layout(set = 0, binding = 8) uniform sampler2D picture;
-void main() {
+)" + for_textures(job, "layout(set = 0, binding = 2 + {1}) uniform sampler{2}D {0};\n") +
+         R"(void main() {
   int item = int(gl_GlobalInvocationID.x);
   if (4 * item >= asked.length()) return;
-  LtcCase found = ltc_case(values_0, values_1, values_2, stacked, inverses, terms, picture,
-                           asked[4 * item], asked[4 * item + 1], asked[4 * item + 2],
-                           asked[4 * item + 3]);
-  answers[6 * item] = found.r0;
-  answers[6 * item + 1] = found.r1;
-  answers[6 * item + 2] = found.r2;
-  answers[6 * item + 3] = found.r3;
-  answers[6 * item + 4] = found.r4;
-  answers[6 * item + 5] = found.r5;
-}
-)";
-
-constexpr const char* hlsl_entry = R"(
-[[vk::binding(0)]] StructuredBuffer<float4> asked;
-[[vk::binding(1)]] RWStructuredBuffer<float4> answers;
-[[vk::binding(2)]] Texture3D<float4> values_0;
-[[vk::binding(3)]] Texture3D<float4> values_1;
-[[vk::binding(4)]] Texture3D<float4> values_2;
-[[vk::binding(5)]] Texture3D<float4> stacked;
-[[vk::binding(6)]] Texture2D<float4> inverses;
-[[vk::binding(7)]] Texture2D<float4> terms;
-[[vk::binding(8)]] Texture2D<float4> picture;
-[[vk::binding(9)]] SamplerState linear_clamp;
-[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID) {
-  uint item = id.x, count, stride;
-  asked.GetDimensions(count, stride);
-  if (4 * item >= count) return;
-  LtcCase found = ltc_case(values_0, linear_clamp, values_1, linear_clamp, values_2, linear_clamp,
-                           stacked, linear_clamp, inverses, linear_clamp, terms, linear_clamp,
-                           picture, linear_clamp, asked[4 * item], asked[4 * item + 1],
+  LtcCase found = ltc_case()" +
+         for_textures(job, "{0}, ") + R"(asked[4 * item], asked[4 * item + 1],
                            asked[4 * item + 2], asked[4 * item + 3]);
   answers[6 * item] = found.r0;
   answers[6 * item + 1] = found.r1;
@@ -69,6 +39,30 @@ constexpr const char* hlsl_entry = R"(
   answers[6 * item + 5] = found.r5;
 }
 )";
+}
+
+std::string hlsl_entry(const Job& job) {
+  return R"(
+[[vk::binding(0)]] StructuredBuffer<float4> asked;
+[[vk::binding(1)]] RWStructuredBuffer<float4> answers;
+)" + for_textures(job, "[[vk::binding(2 + {1})]] Texture{2}D<float4> {0};\n") +
+         fmt::format("[[vk::binding({})]] SamplerState linear_clamp;\n", job.textures.size() + 2) +
+         R"([numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID) {
+  uint item = id.x, count, stride;
+  asked.GetDimensions(count, stride);
+  if (4 * item >= count) return;
+  LtcCase found = ltc_case()" +
+         for_textures(job, "{0}, linear_clamp, ") + R"(asked[4 * item], asked[4 * item + 1],
+                           asked[4 * item + 2], asked[4 * item + 3]);
+  answers[6 * item] = found.r0;
+  answers[6 * item + 1] = found.r1;
+  answers[6 * item + 2] = found.r2;
+  answers[6 * item + 3] = found.r3;
+  answers[6 * item + 4] = found.r4;
+  answers[6 * item + 5] = found.r5;
+}
+)";
+}
 
 void check(VkResult result, const char* what) {
   if (result != VK_SUCCESS)
@@ -79,10 +73,10 @@ std::vector<std::uint32_t> compiled(const Job& job, VulkanSource source) {
   const TemporaryDirectory folder;
   std::vector<std::string> command = {"glslangValidator", "-V", "-S", "comp", "-o", "a.spv"};
   if (source == VulkanSource::glsl) {
-    folder.write("a.comp", "#version 450\n" + job.glsl + glsl_entry);
+    folder.write("a.comp", "#version 450\n" + job.glsl + glsl_entry(job));
     command.insert(command.end(), {"a.comp"});
   } else {
-    folder.write("a.hlsl", job.hlsl + hlsl_entry);
+    folder.write("a.hlsl", job.hlsl + hlsl_entry(job));
     command.insert(command.end(), {"-D", "-e", "main", "a.hlsl"});
   }
   const ProgramResult result = run_program(command, folder.path());
@@ -274,11 +268,11 @@ VkSampler make_sampler(const Device& device) {
   return sampler;
 }
 
-// What each binding is: two buffers, seven images (with samplers, in GLSL), a sampler (in HLSL).
-std::vector<VkDescriptorType> bindings_of(VulkanSource source) {
+// What each binding is: two buffers, the images (with samplers, in GLSL), a sampler (in HLSL).
+std::vector<VkDescriptorType> bindings_of(const Job& job, VulkanSource source) {
   const bool glsl = source == VulkanSource::glsl;
   std::vector<VkDescriptorType> types(2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-  types.resize(9,
+  types.resize(2 + job.textures.size(),
                glsl ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
   if (!glsl)
     types.push_back(VK_DESCRIPTOR_TYPE_SAMPLER);
@@ -389,7 +383,7 @@ Results run_vulkan(const Job& job, VulkanSource source) {
   std::vector<VkImageView> views;
   for (const Texture& texture : job.textures)
     views.push_back(upload(device, texture));
-  const std::vector<VkDescriptorType> types = bindings_of(source);
+  const std::vector<VkDescriptorType> types = bindings_of(job, source);
   const VkDescriptorSetLayout layout = make_layout(device, types);
   const VkDescriptorSet set = make_set(device, layout, types);
   write_set(device, set, types, buffers, views, make_sampler(device));
