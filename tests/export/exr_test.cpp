@@ -234,6 +234,30 @@ TEST(Exr, OurReaderGivesTheValuesBack) {
   EXPECT_EQ(half.precision, Precision::half);
 }
 
+TEST(Exr, FoldedTablesHaveAFourthFile) {
+  const TemporaryFolder folder;
+  const Table table = testing::synthetic_table(testing::uneven_grid(), Storage::folded);
+  write_table(table, folder / "t.0.exr");
+  for (const char* name : {"t.0.exr", "t.3.exr"}) {
+    const Table found = read_table(folder / name);
+    testing::expect_same_bits(found.stored, table.stored, "stored");
+    testing::expect_same_bits(found.fold, table.fold, "fold");
+    EXPECT_EQ(found.creases, table.creases);
+  }
+  // Another table's, and none.
+  Table other = table;
+  other.creases = {0.5};
+  write_table(other, folder / "o.0.exr");
+  std::filesystem::copy_file(folder / "o.3.exr", folder / "t.3.exr",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_THROW(read_table(folder / "t.0.exr"), InputError);
+  std::filesystem::remove(folder / "t.3.exr");
+  EXPECT_THROW(read_table(folder / "t.0.exr"), IoError);
+  // Plain ones have three.
+  write_table(example(), folder / "p.0.exr");
+  EXPECT_FALSE(std::filesystem::exists(folder / "p.3.exr"));
+}
+
 TEST(Exr, WhetherATableIsRefinedIsKeptAndMayBeUnknown) {
   const TemporaryFolder folder;
   for (const std::optional<bool> refined : {std::optional<bool>(), {false}, {true}}) {

@@ -7,6 +7,7 @@
 #include <hdf5.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -154,12 +155,35 @@ TEST(Hdf5, H5dumpReadsTheFile) {
 TEST(Hdf5, OurReaderGivesTheSameTableBack) {
   const TemporaryFolder folder;
   for (const Grid& grid : {testing::uneven_grid(), Grid::paper({1, 2, 1, 3})}) {
-    Table table = testing::synthetic_table(grid, Storage::roughness_scaled);
-    write_table(table, folder / "t.h5");
-    testing::expect_same_tables(read_table(folder / "t.h5"), table);
+    for (const Storage storage : {Storage::roughness_scaled, Storage::folded}) {
+      const Table table = testing::synthetic_table(grid, storage);
+      write_table(table, folder / "t.h5");
+      testing::expect_same_tables(read_table(folder / "t.h5"), table);
+    }
   }
   write_table(example(), folder / "t.h5");
   testing::expect_same_tables(read_table(folder / "t.h5"), example());
+}
+
+TEST(Hdf5, FoldsThatAreNoneAreRefused) {
+  const TemporaryFolder folder;
+  const Table table = testing::synthetic_table(testing::uneven_grid(), Storage::folded);
+  const auto refused = [&](const std::function<void(Table&)>& change, const char* what) {
+    Table broken = table;
+    change(broken);
+    try {
+      write_table(broken, folder / "t.h5");
+      ADD_FAILURE() << what;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  refused([](Table& t) { t.fold.pop_back(); }, "fold has 239 values");
+  refused([](Table& t) { t.fold[5] = std::numeric_limits<float>::quiet_NaN(); },
+          "fold of entry (0, 0, 0, 2) is not finite");
+  refused([](Table& t) { t.creases = {}; }, "creases are []");
+  refused([](Table& t) { t.creases = {0.4, 0.4}; }, "must increase");
+  refused([](Table& t) { t.storage = Storage::mirror_frame; }, "fold has 240 values");
 }
 
 TEST(Hdf5, ALongConfigAndAnEmptyTextGoThereAndBack) {

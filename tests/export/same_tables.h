@@ -32,6 +32,8 @@ inline void expect_same_tables(const Table& a, const Table& b) {
   expect_same_bits(a.amplitude, b.amplitude, "amplitude");
   expect_same_bits(a.fresnel, b.fresnel, "fresnel");
   expect_same_bits(a.sw_loss, b.sw_loss, "sw_loss");
+  EXPECT_EQ(a.fold, b.fold);
+  EXPECT_EQ(a.creases, b.creases);
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.iterations, b.iterations);
 }

@@ -177,7 +177,7 @@ FitResult fit_of(const Lobe& lobe, const FitSettings& settings = folded_settings
 double held_out(const Lobe& lobe, const FitResult& fit) {
   HeldOutJudge judge;
   judge.set_lobe(lobe);
-  return judge.loss(fit.matrix, fit.fold, usual_creases) / judge.spread();
+  return judge.loss({fit.matrix, fit.fold, usual_creases}) / judge.spread();
 }
 
 TEST(FoldedFit, BendsBrushedLobes) {

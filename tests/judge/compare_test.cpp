@@ -61,6 +61,10 @@ TEST(Compare, MatricesOfOneLobeHaveNoDistance) {
 
 TEST(Compare, ATableHasNoDistanceToItselfWhateverTheStorage) {
   const Table a = example();
+  const Table folded = testing::synthetic_table(testing::uneven_grid(), Storage::folded);
+  EXPECT_GT(compare(a, folded).back().relative_distance(), 0) << "a fold is seen";
+  for (const EntryComparison& entry : compare(folded, folded))
+    EXPECT_EQ(entry.distance, 0);
   for (const Storage storage :
        {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame}) {
     const Table b = testing::synthetic_table(testing::uneven_grid(), storage);

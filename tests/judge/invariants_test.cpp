@@ -83,6 +83,30 @@ TEST(Invariants, HoldForASoundTableOfAnyStorage) {
   }
 }
 
+TEST(Invariants, FoldsAreJudgedToo) {
+  Config config = small_config(Storage::folded);
+  config.fit.lobe = LobeKind::folded;
+  config.field.creases = config.fit.creases();
+  config.field.queries = 2000;
+  const Table table = generate_table(config, {1});
+  std::vector<InvariantResult> results = check(table);
+  EXPECT_EQ(failed(results), std::set<std::string>{});
+  EXPECT_GT(named(results, "fold one to one").value, 0);
+  EXPECT_FALSE(named(results, "alignment").checked) << "creases turn with the matrix";
+  EXPECT_GT(named(results, "neighbours").value, 0);
+  // Each sees its fault.
+  const std::size_t upward = table.grid.flat({2, 1, 0, 2}), along = table.grid.flat({2, 1, 2, 0}),
+                    general = table.grid.flat({2, 1, 2, 2});
+  const auto fails = [&](std::size_t flat, std::size_t number, float value) {
+    Table broken = table;
+    broken.fold[2 * flat + number] = value;
+    return failed(check(broken));
+  };
+  EXPECT_TRUE(fails(along, 0, 0.1f).contains("zeros of equation 16"));
+  EXPECT_TRUE(fails(upward, 1, 0.9f).contains("theta = 0 over phi"));
+  EXPECT_TRUE(fails(general, 0, 5.0f).contains("stored loss"));
+}
+
 TEST(Invariants, AreTheSameWithAnyNumberOfThreads) {
   const std::vector<InvariantResult> one = check(good_table(), 1), three = check(good_table(), 3);
   for (std::size_t i = 0; i < one.size(); ++i) {

@@ -247,6 +247,71 @@ TEST(QuerySystem, GradientIsThatOfItsValue) {
   }
 }
 
+// Eleven numbers a node, with folds that are seen.
+std::vector<FoldedNode> folded_nodes(const Grid& grid) {
+  const std::vector<Eigen::Matrix3d> stored = matrices(grid, Storage::folded);
+  std::vector<FoldedNode> nodes(grid.size());
+  for (std::size_t flat = 0; flat < nodes.size(); ++flat) {
+    const Lobe lobe = grid.lobe(flat);
+    const double bend = (1 - lobe.alpha_y / lobe.alpha_x) * std::sin(lobe.theta_radians);
+    nodes[flat] << flattened(stored[flat]), -0.7 * bend * std::sin(lobe.phi_radians), 0.2 * bend;
+  }
+  return nodes;
+}
+
+TEST(QuerySystem, GradientOfFoldedNodesIsThatOfItsValue) {
+  const Grid grid = small_grid();
+  const System plain(grid);
+  FoldedQuerySystem queries({grid, Storage::folded, all_of(grid), usual_creases}, plain.asked,
+                            {1024, 16, 4096}, 0.0);
+  const std::vector<FoldedNode> nodes = folded_nodes(grid);
+  for (int twice = 0; twice < 2; ++twice) {
+    queries.evaluate(nodes, {1});
+    queries.adopt();
+  }
+  NodeVectorsOf<FoldedNode> gradient;
+  queries.gradient(gradient, {1});
+  // All numbers; and those of the fold alone.
+  for (const int first : {0, 9}) {
+    double square = 0;
+    for (const FoldedNode& g : gradient)
+      square += g.tail(11 - first).squaredNorm();
+    const double length = 2e-3 / std::sqrt(square);
+    const auto value_at = [&](double sign) {
+      std::vector<FoldedNode> moved = nodes;
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        moved[n].tail(11 - first) += sign * length * gradient[n].tail(11 - first);
+      return queries.evaluate(moved, {1});
+    };
+    // As for plain nodes.
+    EXPECT_NEAR((value_at(1) - value_at(-1)) / 2 / (length * square), 1, 0.1) << first;
+  }
+}
+
+TEST(NodeSpace, FoldsKeepTheirSymmetries) {
+  const Grid grid = small_grid();
+  const NodeSpace space(grid, Storage::folded, all_of(grid));
+  const std::vector<FoldedNode> nodes = folded_nodes(grid);
+  NodeVectorsOf<FoldedNode> step(grid.size(), FoldedNode::Ones());
+  space.project(nodes, step);
+  for (std::size_t flat = 0; flat < step.size(); ++flat) {
+    const NodeIndex node = grid.node(flat);
+    const bool isotropic = grid.lambda.nodes[node.lambda] == 1;
+    const bool along_x = node.phi == 0 || looks_upward(grid.theta.nodes[node.theta]);
+    EXPECT_EQ(step[flat][9], isotropic || along_x ? 0 : 1) << flat;
+    EXPECT_EQ(step[flat][10], isotropic ? 0 : 1) << flat;
+  }
+  // Gamma stays below its bound.
+  const std::vector<SingularityBound> bounds(
+      grid.size(), {-1e300, -2, 1e300, Eigen::Vector3d::Ones(), 1.0});
+  NodeVectorsOf<FoldedNode> far(grid.size(), FoldedNode::Zero());
+  const std::size_t free = grid.flat({1, 1, 1, 1});
+  far[free][10] = 3;
+  const double gamma = stepped(Storage::folded, nodes, far, bounds)[free][10];
+  EXPECT_GT(gamma, nodes[free][10]);
+  EXPECT_LE(gamma, 1);
+}
+
 TEST(QuerySystem, CurvatureIsSymmetricPositiveAndHasItsBlocks) {
   const Grid grid = small_grid();
   System system(grid);

@@ -206,7 +206,7 @@ TEST(LobePicture, AFoldedLobeStandsBesideTheLtc) {
   // A density: what of it is above the horizon, to a hundredth.
   const LobeWindow window = hemisphere_window();
   EXPECT_NEAR(integral(ltc_density(bent, lobe, window, 128), window),
-              1 - share_below_horizon(matrix, bent.fold, bent.creases), 0.01);
+              1 - share_below_horizon({matrix, bent.fold, bent.creases}), 0.01);
   // Where it is the LTC's, so is its picture, but for rounding.
   const picture::Field straight = ltc_density({matrix, {}, usual_creases}, lobe, window, 32);
   const picture::Field plain = ltc_density({matrix}, lobe, window, 32);

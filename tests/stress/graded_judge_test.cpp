@@ -55,7 +55,7 @@ TEST(GradedJudge, AgreesWithTheJudgeOfTables) {
   graded.set_lobe(lobe);
   held_out.set_lobe(lobe);
   EXPECT_NEAR(graded.loss(matrix), held_out.loss(matrix), 0.01 * held_out.loss(matrix));
-  const double folded = held_out.loss(matrix, {-0.8, 0.3}, usual_creases);
+  const double folded = held_out.loss({matrix, {-0.8, 0.3}, usual_creases});
   EXPECT_NEAR(graded.loss(matrix, {-0.8, 0.3}, usual_creases), folded, 0.01 * folded);
   EXPECT_GT(folded, 1.1 * held_out.loss(matrix)) << "a fold is seen";
   EXPECT_NEAR(graded.spread(), held_out.spread(), 0.01 * held_out.spread());

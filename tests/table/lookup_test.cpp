@@ -248,6 +248,31 @@ TEST(LookUp, ContinuousAcrossAlphaMin) {
   }
 }
 
+// The fold is that of the reduced query, whatever quadrant and order of roughnesses was asked for.
+TEST(LookUp, FoldsAreInterpolatedAndStayOneToOne) {
+  const Grid grid = Grid::paper(4);
+  Table table = testing::synthetic_table(grid, Storage::folded);
+  const std::size_t a = grid.flat({3, 1, 2, 1}), b = grid.flat({3, 1, 2, 2});
+  Lobe between = grid.lobe(a);
+  between.phi_radians = 0.5 * (between.phi_radians + grid.lobe(b).phi_radians);
+  const Fold mean = fold_of(0.5 * (table.fold[2 * a] + table.fold[2 * b]),
+                            0.5 * (table.fold[2 * a + 1] + table.fold[2 * b + 1]), between,
+                            table.creases);
+  EXPECT_GT(std::abs(mean.k), 0.1);
+  EXPECT_GT(mean.g, 0.1);
+  // Weights of rounded azimuths.
+  for (const Lobe& query : testing::lobes_that_fold_to(between)) {
+    const LookUp found = look_up(table, query);
+    EXPECT_NEAR(found.fold.k, mean.k, 1e-12);
+    EXPECT_NEAR(found.fold.g, mean.g, 1e-12);
+    EXPECT_EQ(found.creases, table.creases);
+  }
+  // Of others' files.
+  table.fold[2 * a + 1] = 9;
+  EXPECT_TRUE(is_one_to_one(table.fold_at(a), table.creases));
+  EXPECT_TRUE(is_one_to_one(look_up(table, between).fold, table.creases));
+}
+
 // With the mirror-frame storage nothing of the first-order matrix is left to interpolate but the
 // smooth change of the view, so that a coarse table is right between its nodes for all roughnesses.
 TEST(LookUp, StorageIsUndoneWithTheQuerysRoughness) {

@@ -31,6 +31,13 @@ inline double synthetic_fresnel(const Lobe& lobe) {
   return 0.1 + 0.2 * (lobe.alpha_x * v.x() * v.x() + lobe.alpha_y * v.y() * v.y());
 }
 
+inline double synthetic_kappa(const Lobe& lobe) {
+  return -0.8 * (1 - lobe.alpha_y / lobe.alpha_x) * lobe.omega_v().y();
+}
+inline double synthetic_gamma(const Lobe& lobe) {
+  return 0.3 * (1 - lobe.alpha_y / lobe.alpha_x) * lobe.alpha_x;
+}
+
 // Every entry fitted, with the values above; loss and steps differ from entry to entry.
 inline Table synthetic_table(const Grid& grid, Storage storage) {
   Table table = Table::empty(grid, storage);
@@ -38,6 +45,8 @@ inline Table synthetic_table(const Grid& grid, Storage storage) {
   table.config = "[fit]\nseed = 1  # α\n";
   table.generator = "ltcfit test";
   table.created = "2026-01-02T03:04:05Z";
+  if (is_folded(table))
+    table.creases = {0.4, 1.5};
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Lobe lobe = grid.lobe(i);
     table.set_stored(i, stored_from_matrix(storage, first_order_matrix(lobe), lobe));
@@ -46,6 +55,10 @@ inline Table synthetic_table(const Grid& grid, Storage storage) {
     table.sw_loss[i] = 1e-3f * static_cast<float>(i);
     table.status[i] = static_cast<Status>(1 + i % 3);
     table.iterations[i] = static_cast<std::uint16_t>(i);
+    if (is_folded(table)) {
+      table.fold[2 * i] = static_cast<float>(synthetic_kappa(lobe));
+      table.fold[2 * i + 1] = static_cast<float>(synthetic_gamma(lobe));
+    }
   }
   return table;
 }
