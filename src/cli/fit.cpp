@@ -224,7 +224,7 @@ void require_one_name(const Arguments& arguments) {
 
 // What the table holds for the lobe; nothing is fitted but the floor.
 void show_as_in(const Arguments& arguments, const RunContext& run) {
-  Table table = read_input(arguments.as_in, arguments.layout, FoldedLobes::refused);
+  Table table = read_input(arguments.as_in, arguments.layout);
   const TableContents contents = contents_of(arguments.as_in, table);
   StoredReport report{arguments.as_in, contents, std::move(table), {}};
   const auto named = [&](auto&& action) {
@@ -242,7 +242,11 @@ void show_as_in(const Arguments& arguments, const RunContext& run) {
     report.lobe = named([&] { return stored_entry(report.table, entry, run); });
   }
   if (!arguments.plot.empty())
-    render_lobe(lobe_panels(report.lobe.lobe, report.lobe.matrix, picture_words(report)), {})
+    render_lobe(
+        lobe_panels(report.lobe.lobe,
+                    {{is_folded(report.table) ? "folded LTC" : "LTC", report.lobe.ltc()}},
+                    picture_words(report)),
+        {})
         .write_png(arguments.plot);
   print_results(
       arguments.json, [&] { return report_text(report); }, [&] { return report_json(report); });

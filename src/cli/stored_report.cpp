@@ -3,6 +3,7 @@
 #include "cli/stored_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/LU>
 #include <cmath>
@@ -47,6 +48,13 @@ std::string nodes_text(const StoredReport& report) {
   return text;
 }
 
+// Of folded lobes alone.
+std::string fold_text(const StoredLobe& lobe) {
+  return lobe.creases.empty() ? ""
+                              : fmt::format("fold     k {:.6f}, g {:.6f}; creases {}\n", lobe.fold.k,
+                                            lobe.fold.g, fmt::join(lobe.creases, ", "));
+}
+
 // What the table costs beside an LTC of the lobe's own.
 std::string ratio_words(const StoredLobe& lobe) {
   return fmt::format("the table's loss is {:.4g} times that of an LTC fitted to this very lobe",
@@ -71,6 +79,7 @@ std::string report_text(const StoredReport& report) {
   text += fmt::format("lobe     {} (degrees)\n", lobe_line(lobe.lobe));
   text += lobe.entry ? entry_line(report, refined) : nodes_text(report);
   text += matrix_text("matrix", lobe.matrix);
+  text += fold_text(lobe);
   if (lobe.entry && report.table.storage != Storage::matrix)
     text += matrix_text("stored", lobe.stored);
   text += fmt::format("loss     {}\n", loss_words(lobe.held_out_loss, floor.spread));
@@ -111,6 +120,8 @@ std::string report_json(const StoredReport& report) {
   json["matrix"]["final"] = matrix_json(lobe.matrix);
   if (lobe.entry)
     json["matrix"]["stored"] = matrix_json(lobe.stored);
+  if (!lobe.creases.empty())
+    json["fold"] = {{"k", lobe.fold.k}, {"g", lobe.fold.g}, {"creases", lobe.creases}};
   json["determinant"] = lobe.matrix.determinant();
   json["condition_number"] = condition_number(lobe.matrix);
   json["loss"] = loss_json(lobe.held_out_loss);

@@ -53,9 +53,6 @@ void validate(const Arguments& arguments, Files& files) {
                     {},
                     std::nullopt,
                     {}};
-  if (is_folded(report.table) && !arguments.report.empty())
-    throw InputError(fmt::format("{}: its lobes are folded; --report draws plain ones alone",
-                                 arguments.table));
   const ValidateSettings settings =
       load_validate_settings(arguments.config.path(), arguments.config.overrides,
                              settings_for(report.table), ConfigArguments::override_option);

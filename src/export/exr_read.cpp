@@ -194,10 +194,10 @@ void read_file_into(Table& table, std::size_t index, const fs::path& path) {
     if (index == 0)
       table = std::move(found);
     else if (found.grid != table.grid || found.storage != table.storage ||
-             found.refined != table.refined || found.creases != table.creases)
-      refuse(path,
-             "axes, warp, storage, alpha_min, ltc:refined or ltc:creases differ from those of file "
-             "0");
+             found.refined != table.refined)
+      refuse(path, "axes, warp, storage, alpha_min or ltc:refined differ from those of file 0");
+    else if (found.creases != table.creases)
+      refuse(path, "ltc:creases differ from those of file 0");
     if (half)
       table.precision = Precision::half;
     take_pixels(table, index, read_pixels(file, table.grid), path);
@@ -218,6 +218,9 @@ Table read_exr(const TableFiles& paths, const ReadAs&) {
   Table table;
   for (std::size_t index = 0; index < texels_per_entry; ++index)
     read_file_into(table, index, paths[index]);
+  if (paths.size() > texels_per_entry && !is_folded(table))
+    refuse(paths.back(), fmt::format("of a folded table, yet {} is of one with storage {}",
+                                     paths.front().string(), name_of(table.storage)));
   if (is_folded(table)) {
     const std::string first = paths.front().string();
     read_file_into(table, texels_per_entry,

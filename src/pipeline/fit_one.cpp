@@ -95,6 +95,8 @@ LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, s
   if (!needed[flat])
     throw InputError("the entry is not among those that the table needs");
   const Grid& grid = config.grid;
+  if (config.fit.lobe == LobeKind::folded)  // its table starts them from a field's values
+    return fit_lobe(config, grid.lobe(flat), entry_seed(config.fit.seed, flat), std::nullopt, run);
   const std::size_t representative = plan_by_symmetry(grid, needed)[flat].representative;
   FitWatch watch{representative, {}};
   const std::vector<FittedEntry> entries = fit_table(

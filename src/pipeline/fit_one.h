@@ -45,7 +45,8 @@ std::vector<bool> entries_behind(const Grid& grid, const std::vector<bool>& need
 
 // Entry `flat` of the table that generate_table(config, needed, …) makes, bit for bit: what is
 // stored, loss, steps, status, amplitude and Fresnel. `fits` are those of its representative.
-// Throws InputError for an entry that is not needed, else as generate_table.
+// Throws InputError for an entry that is not needed, else as generate_table. Of folded lobes, whose
+// tables start from a field's values, the lobe by itself.
 LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, std::size_t flat,
                         const RunContext& run);
 

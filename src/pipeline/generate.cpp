@@ -294,10 +294,13 @@ Cost cost_of(const Config& config, const std::vector<bool>& needed, const Refine
     return cost;
   }
   const bool whole = std::find(needed.begin(), needed.end(), false) == needed.end();
-  cost.fits = whole ? EqualLobes(config.grid).count()
-                    : representative_count(plan_by_symmetry(config.grid, needed));
+  if (config.storage == Storage::folded)
+    cost.queries = static_cast<std::size_t>(config.field.queries);
+  if (config.storage != Storage::folded || config.refine.steps == 0)
+    cost.fits = whole ? EqualLobes(config.grid).count()
+                      : representative_count(plan_by_symmetry(config.grid, needed));
   if (config.refine.steps > 0)
-    cost.queries = refined_query_count(config.grid, values_behind(needed, context), config.refine);
+    cost.queries += refined_query_count(config.grid, values_behind(needed, context), config.refine);
   return cost;
 }
 

@@ -37,7 +37,7 @@ void judge(const Table& table, const RunContext& run, StoredLobe& stored) {
   stored.floor = fit_lobe(config, stored.lobe, entry_seed(config.fit.seed, 0), std::nullopt, run);
   HeldOutJudge judge;
   judge.set_lobe(stored.lobe);
-  stored.held_out_loss = judge.loss(stored.matrix);
+  stored.held_out_loss = judge.loss(stored.ltc());
 }
 
 double relative_loss_of_node(const Table& table, std::size_t flat, const RunContext& run) {
@@ -56,6 +56,8 @@ StoredLobe stored_entry(const Table& table, std::size_t flat, const RunContext& 
   stored.entry = flat;
   stored.stored = table.stored_at(flat);
   stored.matrix = table.matrix_at(flat);
+  stored.fold = table.fold_at(flat);
+  stored.creases = table.creases;
   stored.albedo = {table.amplitude[flat], table.fresnel[flat]};
   stored.stated_loss = table.sw_loss[flat];
   judge(table, run, stored);
@@ -80,6 +82,8 @@ StoredLobe stored_query(const Table& table, const Lobe& lobe, const RunContext& 
   const LookUp found = look_up(table, lobe);
   stored.stored = Eigen::Matrix3d::Constant(nan);
   stored.matrix = found.matrix;
+  stored.fold = found.fold;
+  stored.creases = found.creases;
   stored.albedo = {found.amplitude, found.fresnel};
   stored.stated_loss = nan;
   judge(table, run, stored);

@@ -29,10 +29,14 @@ struct StoredLobe {
   bool within_axes = true;           // otherwise the look-up was clamped to them
   Eigen::Matrix3d stored;            // of an entry
   Eigen::Matrix3d matrix;            // M
+  Fold fold;                         // of folded lobes, with their creases
+  Creases creases;
   Albedo albedo;
   double stated_loss = 0;    // of an entry
   double held_out_loss = 0;  // of `matrix`, by samples that no fit has seen
   LobeFit floor;             // an LTC fitted to this very lobe (floor_fit_settings)
+
+  LtcLobe ltc() const { return {matrix, fold, creases}; }
 };
 
 // Entry `flat` of the table as it is stored. Throws InputError, naming the entry, where it has no

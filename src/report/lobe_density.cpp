@@ -212,7 +212,7 @@ std::vector<WeightedPoint> lobe_points(const LobeSampler& sampler, const LobeWin
 
 // `use` of the lobe, which has density() and sample().
 template <typename Use>
-auto with_lobe(const ShownLobe& shown, const Use& use) {
+auto with_lobe(const LtcLobe& shown, const Use& use) {
   if (shown.creases.empty())
     return use(LinearlyTransformed(shown.matrix));
   return use(FoldedCosine(shown.matrix, shown.fold, shown.creases));
@@ -223,7 +223,7 @@ Eigen::Vector3d sample_of(const Transformed& ltc, std::size_t i, std::size_t cou
   return ltc.sample((static_cast<double>(i) + 0.5) / static_cast<double>(count), golden_turns(i));
 }
 
-std::vector<WeightedPoint> points_of(const ShownLobe& shown, const LobeWindow& window) {
+std::vector<WeightedPoint> points_of(const LtcLobe& shown, const LobeWindow& window) {
   return with_lobe(shown, [&](const auto& ltc) {
     std::vector<WeightedPoint> points;
     for (std::size_t i = 0; i < window_samples; ++i)
@@ -252,14 +252,14 @@ LobeWindow hemisphere_window() {
 }
 
 LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix) {
-  return choose_window(lobe, std::array{ShownLobe{matrix}});
+  return choose_window(lobe, std::array{LtcLobe{matrix}});
 }
 
-LobeWindow choose_window(const Lobe& lobe, std::span<const ShownLobe> beside) {
+LobeWindow choose_window(const Lobe& lobe, std::span<const LtcLobe> beside) {
   LobeWindow window{LobeFrame(lobe).rotation, 0, 0, 0, false};
   Bounds bounds;
   bounds.include_bulk(lobe_points(*lobe.model->sampler(lobe), window));
-  for (const ShownLobe& shown : beside)
+  for (const LtcLobe& shown : beside)
     if (is_invertible(shown.matrix))
       bounds.include_bulk(points_of(shown, window));
   const Eigen::Vector2d center = (bounds.low + bounds.high) / 2;
@@ -282,7 +282,7 @@ Field lobe_density(const Lobe& lobe, const LobeWindow& window, std::size_t side)
       window, sampler->mirror(), side);
 }
 
-Field ltc_density(const ShownLobe& shown, const Lobe& lobe, const LobeWindow& window,
+Field ltc_density(const LtcLobe& shown, const Lobe& lobe, const LobeWindow& window,
                   std::size_t side) {
   if (!is_invertible(shown.matrix))
     return {side, side, std::vector<float>(side * side, no_value)};

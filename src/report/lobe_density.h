@@ -13,13 +13,6 @@
 
 namespace ltc {
 
-// What is shown beside GGX: an LTC, folded where there are creases (ltc/folded.h).
-struct ShownLobe {
-  Eigen::Matrix3d matrix;
-  Fold fold = {};
-  Creases creases = {};
-};
-
 // Where a picture looks: a square in Lambert's azimuthal equal-area projection about an axis, in
 // which a direction at the angle a from the axis is 2 sin(a/2) from the origin (for small angles,
 // the angle itself), and every pixel covers the same solid angle.
@@ -40,7 +33,7 @@ LobeWindow hemisphere_window();
 
 // The hemisphere for broad lobes. For others a square about the mirror direction that holds at
 // least nine tenths of the GGX lobe and, where they are finite, of those shown beside it.
-LobeWindow choose_window(const Lobe& lobe, std::span<const ShownLobe> beside);
+LobeWindow choose_window(const Lobe& lobe, std::span<const LtcLobe> beside);
 LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix);
 
 // Mean densities per steradian of the pixels of a window, `side` by `side`, row by row from the
@@ -48,7 +41,7 @@ LobeWindow choose_window(const Lobe& lobe, const Eigen::Matrix3d& matrix);
 // centre is below the horizon in a picture of the hemisphere; all NaN for an LTC whose matrix is
 // singular or not finite. A ridge thinner than a pixel has its mass in the pixels that it crosses.
 picture::Field lobe_density(const Lobe& lobe, const LobeWindow& window, std::size_t side);
-picture::Field ltc_density(const ShownLobe& shown, const Lobe& lobe, const LobeWindow& window,
+picture::Field ltc_density(const LtcLobe& shown, const Lobe& lobe, const LobeWindow& window,
                            std::size_t side);
 
 }  // namespace ltc

@@ -102,13 +102,13 @@ picture::PanelRow lobe_panels(const Lobe& lobe, const Eigen::Matrix3d& matrix, p
 
 picture::PanelRow lobe_panels(const Lobe& lobe, const std::vector<NamedLobe>& beside,
                               picture::Words words, std::size_t side) {
-  std::vector<ShownLobe> shown;
+  std::vector<LtcLobe> shown;
   for (const NamedLobe& named : beside)
     shown.push_back(named.lobe);
   const LobeWindow window = choose_window(lobe, shown);
   const Field ggx = lobe_density(lobe, window, side);
   std::vector<Field> fields;
-  for (const ShownLobe& one : shown)
+  for (const LtcLobe& one : shown)
     fields.push_back(ltc_density(one, lobe, window, side));
   const Field difference = difference_of(fields.back(), ggx);
   const picture::Scale scale = density_scale(ggx, fields);

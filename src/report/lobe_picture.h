@@ -29,7 +29,7 @@ std::string lobe_caption(const Lobe& lobe);
 // above and below, with a line on the projection.
 struct NamedLobe {
   std::string name;
-  ShownLobe lobe;
+  LtcLobe lobe;
 };
 picture::PanelRow lobe_panels(const Lobe& lobe, const std::vector<NamedLobe>& beside,
                               picture::Words words, std::size_t side = 256);

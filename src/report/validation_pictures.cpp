@@ -58,7 +58,7 @@ NamedPicture map_of(const Validation& validation, const std::vector<double>& val
 
 struct LobeToDraw {
   Lobe lobe;
-  Eigen::Matrix3d matrix;
+  LtcLobe ltc;
   std::string title, words;
   std::string command;  // that looks into it
 };
@@ -71,7 +71,7 @@ std::vector<LobeToDraw> worst_lobes(const Validation& validation, std::size_t mo
       break;
     const QueryFloor& floor = quality.floors[i];
     lobes.push_back(
-        {floor.lobe, look_up(validation.table, floor.lobe).matrix,
+        {floor.lobe, look_up(validation.table, floor.lobe).ltc(),
          fmt::format("Query {}: {:.3f} of the lobe's spread, floor {:.3f}", i,
                      quality.queries[i].relative_loss, floor.relative_loss),
          fmt::format("LTC as the table's look-up gives it; error under area lights {:.4f}, floor "
@@ -93,7 +93,7 @@ std::vector<LobeToDraw> failing_entries(const Validation& validation, std::size_
     if (std::find(drawn.begin(), drawn.end(), flat) != drawn.end())
       continue;
     drawn.push_back(flat);
-    lobes.push_back({table.grid.lobe(flat), table.matrix_at(flat),
+    lobes.push_back({table.grid.lobe(flat), table.ltc_at(flat),
                      fmt::format("Entry {} fails: {}", entry_text(table.grid, flat), result.name),
                      result.message, validation.entry_command(flat)});
   }
@@ -182,7 +182,7 @@ std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_
   parallel_for_each("draw lobes", to_draw.size(), run, [&](std::size_t i) {
     const LobeToDraw& lobe = to_draw[i];
     picture::Words words{lobe.title, lobe_caption(lobe.lobe), {lobe.words}};
-    canvases[i] = render_lobe(lobe_panels(lobe.lobe, lobe.matrix, words, lobe_side),
+    canvases[i] = render_lobe(lobe_panels(lobe.lobe, {{lobe.ltc.creases.empty() ? "LTC" : "folded LTC", lobe.ltc}}, words, lobe_side),
                               picture::Chart{}, lobe_width);
   });
   std::vector<NamedPicture> pictures;

@@ -287,7 +287,7 @@ TEST_F(OddArguments, OfCommandsOnTables) {
       {"diff --samples 64 --directions 1 --queries 0 -- -x.h5 T.h5", 0, "A = -x.h5"},
       {"validate T.h5 T.h5", 2, "unexpected word T.h5"},
       {"validate T", 2, "no suffix of a table"},
-      {"validate T.3.exr", 2, "no suffix of a table"},
+      {"validate T.3.exr", 2, "of a folded table"},
       {"validate empty.h5", 2, "empty.h5"},
       {"validate empty.npy", 2, "empty.npy"},
       {"validate text.h5", 2, "text.h5"},

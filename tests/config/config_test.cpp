@@ -162,7 +162,7 @@ TEST(Config, ValuesOutOfRangeAreRefused) {
   expect_refused("table.theta.last_degrees=90.1", {"[0, 90]"});
   expect_refused("table.phi.last_degrees=90.5", {"[0, 90]"});
   expect_refused("table.alpha_min=0", {"table.alpha_min = 0"});
-  expect_refused("table.storage=other", {"\"other\"", "\"mirror-frame\" or \"inverse\""});
+  expect_refused("table.storage=other", {"\"other\"", "\"inverse\" or \"folded\""});
   expect_refused("fit.solver=SGD", {"\"SGD\"", "\"sgd\""});
   for (const char* name : {"", "a/b", ".hidden", "-x", "a b"})
     expect_refused(std::string("output.name=") + name, {"output.name", "file name"});

@@ -3,7 +3,7 @@
 """Runs the Python look-up of docs/files.md: documented_look_up.py FILES.md TABLE.h5 QUERIES.json
 
 Each query is [alpha_x, alpha_y, theta, phi]. Prints a JSON list: the nine entries of M by rows,
-amplitude and Fresnel term of each.
+amplitude and Fresnel term of each, and k and g of folded lobes.
 """
 import json
 import re
@@ -21,8 +21,8 @@ def main():
         queries = json.load(text)
     results = []
     for query in queries:
-        matrix, amplitude, fresnel = example["look_up"](table, *query)
-        results.append([*matrix.ravel().tolist(), float(amplitude), float(fresnel)])
+        matrix, *numbers = example["look_up"](table, *query)
+        results.append([*matrix.ravel().tolist(), *map(float, numbers)])
     print(json.dumps(results))
 
 

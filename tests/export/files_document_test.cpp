@@ -55,6 +55,11 @@ double largest_difference(const TemporaryFolder& folder, const Table& table) {
                                            ours.matrix(k / 3, k % 3)));
     largest = std::max(largest, std::abs(found[i][9].get<double>() - ours.amplitude));
     largest = std::max(largest, std::abs(found[i][10].get<double>() - ours.fresnel));
+    EXPECT_EQ(found[i].size(), is_folded(table) ? 13u : 11u);
+    if (is_folded(table)) {
+      largest = std::max(largest, std::abs(found[i][11].get<double>() - ours.fold.k));
+      largest = std::max(largest, std::abs(found[i][12].get<double>() - ours.fold.g));
+    }
   }
   return largest;
 }
@@ -65,7 +70,8 @@ TEST(FilesDocument, PythonExampleAgreesWithOurLookUp) {
   constexpr double rounding = 1e-8;
   for (const auto& [grid, storage] : {std::pair{Grid::paper(4), Storage::matrix},
                                       std::pair{testing::uneven_grid(), Storage::roughness_scaled},
-                                      std::pair{testing::uneven_grid(), Storage::mirror_frame}}) {
+                                      std::pair{testing::uneven_grid(), Storage::mirror_frame},
+                                      std::pair{testing::uneven_grid(), Storage::folded}}) {
     const Table table = testing::synthetic_table(grid, storage);
     write_table(table, folder / "t.h5");
     EXPECT_LT(largest_difference(folder, table), rounding) << name_of(storage);

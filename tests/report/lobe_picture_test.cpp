@@ -197,7 +197,7 @@ TEST(LobePicture, WithoutAMatrixTheLtcIsMissing) {
 TEST(LobePicture, AFoldedLobeStandsBesideTheLtc) {
   const Lobe lobe{0.5, 0.3, 0.6, 0.4};
   const Eigen::Matrix3d matrix = first_order_matrix(lobe);
-  const ShownLobe bent{matrix, {-0.8, 0.2}, usual_creases};
+  const LtcLobe bent{matrix, {-0.8, 0.2}, usual_creases};
   const picture::PanelRow row =
       lobe_panels(lobe, {{"LTC", {matrix}}, {"folded LTC", bent}}, {}, 64);
   ASSERT_EQ(row.panels.size(), 4u);

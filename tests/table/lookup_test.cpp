@@ -255,9 +255,10 @@ TEST(LookUp, FoldsAreInterpolatedAndStayOneToOne) {
   const std::size_t a = grid.flat({3, 1, 2, 1}), b = grid.flat({3, 1, 2, 2});
   Lobe between = grid.lobe(a);
   between.phi_radians = 0.5 * (between.phi_radians + grid.lobe(b).phi_radians);
-  const Fold mean = fold_of(0.5 * (table.fold[2 * a] + table.fold[2 * b]),
-                            0.5 * (table.fold[2 * a + 1] + table.fold[2 * b + 1]), between,
-                            table.creases);
+  const auto mean_of = [&](std::size_t number) {
+    return 0.5 * table.fold[2 * a + number] + 0.5 * table.fold[2 * b + number];
+  };
+  const Fold mean = fold_of(mean_of(0), mean_of(1), between, table.creases);
   EXPECT_GT(std::abs(mean.k), 0.1);
   EXPECT_GT(mean.g, 0.1);
   // Weights of rounded azimuths.

@@ -136,7 +136,7 @@ TEST(Storage, NamesGoThereAndBackAndOthersAreRefused) {
     EXPECT_EQ(value_named<Storage>(name_of(storage)), storage);
   EXPECT_EQ(name_of(Storage::mirror_frame), "mirror-frame");
   EXPECT_EQ(test::message_of<InputError>([] { value_named<Storage>("cholesky"); }),
-            "storage \"cholesky\" is unknown; allowed: matrix, roughness-scaled, mirror-frame, inverse");
+            "storage \"cholesky\" is unknown; allowed: matrix, roughness-scaled, mirror-frame, inverse, folded");
   EXPECT_THROW(name_of(static_cast<Storage>(9)), InputError);
 }
 
