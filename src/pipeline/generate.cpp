@@ -104,6 +104,11 @@ std::vector<QueryRange> ranges_served(const Config& config, const std::vector<Qu
   return served;
 }
 
+// The nodes that refine.keep_smoothest is about.
+bool is_smoothest(const Grid& grid, std::size_t flat) {
+  return grid.alpha.nodes[grid.node(flat).alpha] <= grid.alpha_min;
+}
+
 // What of a node is refined.
 void get_node(const Table& table, std::size_t flat, Eigen::Matrix3d& node) {
   node = table.stored_at(flat);
@@ -143,12 +148,11 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
   std::vector<Node> stored(count);
   std::vector<bool> present(count), movable(count);
   for (std::size_t flat = 0; flat < count; ++flat) {
-    const double alpha = table.grid.alpha.nodes[table.grid.node(flat).alpha];
     const bool made = has_values(table.status[flat]);
     const bool kept = !made && has_values_in(context.existing, flat);
     get_node(kept ? *context.existing : table, flat, stored[flat]);
     present[flat] = made || kept;
-    movable[flat] = made && !(config.refine.keep_smoothest && alpha <= table.grid.alpha_min);
+    movable[flat] = made && !(config.refine.keep_smoothest && is_smoothest(table.grid, flat));
   }
   const RefineReport report = refine({table.grid, table.storage, present, table.creases}, movable,
                                      ranges, config.refine, run, stored);
@@ -240,23 +244,27 @@ std::size_t first_of_same(const Table& table, std::size_t flat) {
   return table.grid.flat(node);
 }
 
-// Each node fitted by itself, from the values that it has.
-void fit_folded_nodes(const FitSettings& settings, const RunContext& run, Table& table) {
+// Each node that is chosen fitted by itself, from the values that it has; but of the smoothest, which
+// a field is not made for.
+void fit_folded_nodes(const FitSettings& settings, const std::vector<bool>& chosen,
+                      const RunContext& run, Table& table) {
   const std::unique_ptr<Solver> solver = make_solver(settings);
   const auto fit = [&](std::size_t flat, FitWorkspace& workspace) {
     FitRequest request;
     request.lobe = table.grid.lobe(flat);
     request.seed = entry_seed(settings.seed, flat);
-    request.incumbent.emplace();
-    request.incumbent->matrix = table.matrix_at(flat);
-    request.incumbent->fold = table.fold_at(flat);
+    if (!is_smoothest(table.grid, flat)) {
+      request.incumbent.emplace();
+      request.incumbent->matrix = table.matrix_at(flat);
+      request.incumbent->fold = table.fold_at(flat);
+    }
     request.progress = run.progress;
     return solver->fit(request, workspace, nullptr);
   };
   parallel_for_each<FitWorkspacePointer>(
       "fit", table.grid.size(), run, make_fit_workspace,
       [&](std::size_t flat, FitWorkspacePointer& workspace) {
-        if (!has_values(table.status[flat]) || first_of_same(table, flat) != flat)
+        if (!chosen[flat] || first_of_same(table, flat) != flat)
           return;
         const FitResult result = fit(flat, *workspace);
         const Lobe lobe = table.grid.lobe(flat);
@@ -268,8 +276,7 @@ void fit_folded_nodes(const FitSettings& settings, const RunContext& run, Table&
         table.iterations[flat] = static_cast<std::uint16_t>(result.steps);
       });
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat)
-    if (const bool made = has_values(table.status[flat]);
-        made && first_of_same(table, flat) != flat) {
+    if (chosen[flat] && first_of_same(table, flat) != flat) {
       FoldedNode node;
       get_node(table, first_of_same(table, flat), node);
       set_node(node, flat, table);
@@ -361,11 +368,14 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     table = nodes_of_small_field(config, context.asked, run);
     skip_others(needed, table);
     finish_stage("field");
-    if (config.refine.steps == 0) {
-      fit_folded_nodes(config.fit, run, table);
-      result.fits = lobes;
-      finish_stage("fit");
-    }
+    std::vector<bool> chosen(table.grid.size());
+    for (std::size_t flat = 0; flat < chosen.size(); ++flat)
+      chosen[flat] = has_values(table.status[flat]) &&
+                     (config.refine.steps == 0 ||
+                      (config.refine.keep_smoothest && is_smoothest(table.grid, flat)));
+    fit_folded_nodes(config.fit, chosen, run, table);
+    result.fits = static_cast<std::size_t>(std::ranges::count(chosen, true));
+    finish_stage("fit");
     measure_losses(run, table);
   } else {
     result.fits = lobes;
