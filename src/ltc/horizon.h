@@ -17,8 +17,10 @@ constexpr EnumNames<HorizonMode, 2> enum_names(HorizonMode) {
   return {"horizon", {{{HorizonMode::clipped, "clipped"}, {HorizonMode::scaled, "scaled"}}}};
 }
 
-// What shares of a lobe above the horizon are multiplied by: 1, or 1 / (1 - share_below_horizon).
-// A lobe that has nothing above is left as it is, with a factor of 1. Throws as FoldedCosine.
+// What shares of a lobe above the horizon are multiplied by: 1, or 1 / (1 - share_below_horizon),
+// at most 16: a lobe with less than a sixteenth above is no lobe of GGX, and what is left of it
+// mostly noise. Throws as FoldedCosine does for a folded lobe.
+inline constexpr double most_horizon_factor = 16;
 double horizon_factor(const LtcLobe& lobe, HorizonMode mode);
 
 }  // namespace ltc
