@@ -43,7 +43,7 @@ struct Measured {
   const char* lobe;  // what stands before the call, whose own time is not counted
   const char* call;  // makes `x` of `lobe`, `view`, `a`, `b` and the light p, u, v
 };
-constexpr std::array<Measured, 21> measured = {{
+constexpr std::array<Measured, 23> measured = {{
     {"look-up, three textures, filtered", no_lobe,
      "x = sum(ltc_look_up(t0, t1, t2, LTC_TABLE, view, a, b));"},
     {"look-up, three textures, by texels", no_lobe,
@@ -61,6 +61,8 @@ constexpr std::array<Measured, 21> measured = {{
     {"sphere", cheap_lobe, "x = ltc_sphere(lobe, p, 0.2);"},
     {"line", cheap_lobe, "x = ltc_line(lobe, p, p + u, 0.01);"},
     {"picture's fetch", cheap_lobe, "x = ltc_picture(i0, 64.0, lobe, p, u, v).x;"},
+    {"horizon's factor", cheap_lobe, "x = ltc_horizon_factor(lobe);"},
+    {"folded: horizon's factor", cheap_folded_lobe, "x = ltc_horizon_factor_folded(lobe);"},
     {"folded: quad, above the horizon", cheap_folded_lobe,
      "x = ltc_quad_folded(lobe, p, p + u, p + u + v, p + v);"},
     {"folded: quad, cut", cheap_folded_lobe,

@@ -83,6 +83,12 @@ vec3 ltc_direction(LtcLobe lobe, float u1, float u2) {
 // The share of the lobe below the horizon, exact.
 float ltc_below_horizon(LtcLobe lobe) { return 0.5 - 0.5 * lobe.m2.z / length(lobe.m2); }
 
+// GGX has nothing there. What the share of any light may be multiplied by to make up for it, at most
+// 16; one factor serves all lights of a pixel.
+float ltc_horizon_factor(LtcLobe lobe) {
+  return 1.0 / max(1.0 - ltc_below_horizon(lobe), 0.0625);
+}
+
 // The same lobe turned about the normal by an angle of this cosine and sine.
 LtcLobe ltc_turned(LtcLobe lobe, float c, float s) {
   LtcLobe turned = lobe;

@@ -206,6 +206,11 @@ float ltc_below_horizon_folded(LtcFoldedLobe folded) {
   return clamp(1.0 - above, 0.0, 1.0);
 }
 
+// As ltc_horizon_factor.
+float ltc_horizon_factor_folded(LtcFoldedLobe folded) {
+  return 1.0 / max(1.0 - ltc_below_horizon_folded(folded), 0.0625);
+}
+
 // ---- Polygons ----
 
 // A polygon in the making, as LtcOutline: ltc_outline_begin_folded, ltc_outline_add_folded for each

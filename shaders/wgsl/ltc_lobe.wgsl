@@ -86,6 +86,12 @@ fn ltc_direction(lobe: LtcLobe, u1: f32, u2: f32) -> vec3<f32> {
 // The share of the lobe below the horizon, exact.
 fn ltc_below_horizon(lobe: LtcLobe) -> f32 { return 0.5 - 0.5 * lobe.m2.z / length(lobe.m2); }
 
+// GGX has nothing there. What the share of any light may be multiplied by to make up for it, at most
+// 16; one factor serves all lights of a pixel.
+fn ltc_horizon_factor(lobe: LtcLobe) -> f32 {
+  return 1.0 / max(1.0 - ltc_below_horizon(lobe), 0.0625);
+}
+
 // The same lobe turned about the normal by an angle of this cosine and sine.
 fn ltc_turned(lobe: LtcLobe, c: f32, s: f32) -> LtcLobe {
   var turned: LtcLobe = lobe;

@@ -42,7 +42,10 @@ std::string figures_text(const QualityReport& quality) {
          row_text("below the horizon, at nodes", quality.nodes_below_horizon) +
          row_text("below the horizon, between nodes", quality.below_horizon) +
          row_text(floor, quality.floor_below_horizon) + noise_text(quality.area_light_noise) +
-         fmt::format("queries: {}\n", range_words(quality.settings.range));
+         fmt::format("queries: {}\n", range_words(quality.settings.range)) +
+         (quality.settings.horizon == HorizonMode::scaled
+              ? "what is above the horizon is scaled up for what is below\n"
+              : "");
 }
 
 std::string left_out_text(const QualityReport& quality) {
@@ -156,6 +159,7 @@ Json quality_json(const std::string& file, const QualityReport& quality,
          {"passed", check.has_verdict() ? Json(check.passed) : Json(nullptr)},
          {"reason", check.reason}});
   json["query_range"] = range_json(quality.settings.range);
+  json["horizon"] = name_of(quality.settings.horizon);
   json["node_loss"] = json_of(quality.nodes);
   json["nodes_without_values"] = quality.nodes_without_values;
   json["query_loss"] = json_of(quality.query_losses);

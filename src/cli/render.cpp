@@ -148,6 +148,7 @@ RenderReport report_of(const Arguments& arguments, const std::vector<SphereMater
   report.light_size = arguments.light.size;
   report.two_sided = arguments.light.two_sided;
   report.samples = arguments.settings.samples;
+  report.horizon = name_of(arguments.settings.horizon);
   report.size = arguments.settings.size;
   report.picture = destination.picture();
   for (const SphereMaterial& material : materials) {
@@ -204,6 +205,7 @@ void write_images(const SphereRow& row, const Arguments& arguments, const fs::pa
       {"ltc:light", arguments.light.kind},
       {"ltc:light_size", fmt::format("{}", arguments.light.size)},
       {"ltc:samples", fmt::format("{}", arguments.settings.samples)},
+      {"ltc:horizon", std::string(name_of(arguments.settings.horizon))},
       {"ltc:table", arguments.table}};
   if (images.ltc.size() > 1) {
     layers.push_back({"ltc_b.Y", &images.ltc[1]});
@@ -290,6 +292,11 @@ Action declare_render(CLI::App& app) {
       ->group(what);
   add_input_option(app, "--table-b", arguments->table_b, "another table to compare with [none]")
       ->group(what);
+  add_names_option(app, "--horizon", arguments->settings.horizon,
+                   "what becomes of a lobe's light below the horizon: lost, or made up for by what "
+                   "is above [clipped]")
+      ->option_text("MODE")
+      ->group("How to render");
   allow(app.add_option("--size", arguments->settings.size,
                        "width and height of an image, pixels [320]"),
         whole_number(8, 2048))

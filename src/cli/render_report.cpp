@@ -102,6 +102,7 @@ std::string report_json(const RenderReport& report) {
                {"light_size", report.light_size},
                {"two_sided", report.two_sided},
                {"samples", report.samples},
+               {"horizon", report.horizon},
                {"size", report.size},
                {"picture", report.picture.string()},
                {"materials", Json::array()}};

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/sphere_picture.h"
@@ -18,6 +19,7 @@ struct RenderReport {
   double light_size = 1;  // times that of figure 14
   bool two_sided = false;
   std::size_t samples = 0, size = 0;
+  std::string_view horizon;  // "clipped", "scaled"
   // One a material.
   std::vector<SphereRow> rows;
   std::vector<double> seconds;

@@ -168,10 +168,11 @@ AreaLightError AreaLightJudge::error(const LtcLobe& ltc, std::optional<double> a
   if (!is_invertible(ltc.matrix) || !std::isfinite(relative_amplitude))
     return error;
   const FoldedCosine cosine(ltc);
+  const double factor = relative_amplitude * horizon_factor(ltc, settings_.horizon);
   error.mean_absolute = error.largest = 0;
   for (std::size_t i = 0; i < quads_.size(); ++i) {
     const double fraction = cosine.integrate_polygon(clip_to_upper_hemisphere(quads_[i]));
-    const double difference = std::abs(relative_amplitude * fraction - fractions_[i]);
+    const double difference = std::abs(factor * fraction - fractions_[i]);
     error.mean_absolute += difference / static_cast<double>(quads_.size());
     error.largest = std::max(error.largest, difference);
   }

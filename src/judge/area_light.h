@@ -13,6 +13,7 @@
 #include "brdf/lobe.h"
 #include "brdf/lobe_sampler.h"
 #include "ltc/folded.h"
+#include "ltc/horizon.h"
 
 namespace ltc {
 
@@ -20,6 +21,7 @@ struct AreaLightSettings {
   std::size_t quads = 64;       // random rectangles a lobe, >= 1
   std::size_t samples = 16384;  // weighted samples of the lobe, >= 64, in two independent halves
   std::uint64_t seed = 20220712;
+  HorizonMode horizon = HorizonMode::clipped;  // of the lobes that are judged
 };
 
 // Over the rectangles of one lobe, all in units of the light that the whole lobe reflects.
@@ -46,10 +48,10 @@ class AreaLightJudge {
   // cancel.
   void set_lobe(const Lobe& lobe, std::uint64_t draw = 0);
 
-  // The error of an LTC, folded or not, integrated exactly (equation 11 of Heitz et al. 2016), times
-  // `amplitude` (the lobe's own if empty, so that only the lobe's shape counts). Light below the
-  // horizon is cut off, as GGX reflects none of it. NaN for a matrix or an amplitude that is not
-  // finite, or a matrix without an inverse.
+  // The error of an LTC, folded or not, integrated exactly (equation 11 of Heitz et al. 2016),
+  // times `amplitude` (the lobe's own if empty, so that only the lobe's shape counts). Light below
+  // the horizon is cut off, as GGX reflects none of it, and the rest scaled up if the settings say
+  // so. NaN for a matrix or an amplitude that is not finite, or a matrix without an inverse.
   AreaLightError error(const LtcLobe& ltc, std::optional<double> amplitude = std::nullopt) const;
 
   // What is judged against: corners of the rectangles, relative to the shaded point in the tangent

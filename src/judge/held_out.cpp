@@ -28,8 +28,10 @@ void project(const Eigen::Vector3f& direction, const AlignedFloats& x, const Ali
 
 }  // namespace
 
-HeldOutJudge::HeldOutJudge(std::size_t samples, std::size_t directions, std::uint64_t seed)
-    : cosines_(make_cosine_set(samples, 0.237 + 1e-3 * static_cast<double>(seed % 997))),
+HeldOutJudge::HeldOutJudge(std::size_t samples, std::size_t directions, std::uint64_t seed,
+                           HorizonMode horizon)
+    : horizon_(horizon),
+      cosines_(make_cosine_set(samples, 0.237 + 1e-3 * static_cast<double>(seed % 997))),
       lattice_(make_target_lattice(samples, 0.713 + 1e-3 * static_cast<double>(seed % 991))),
       directions_(turned_directions(directions, seed)) {
   const std::size_t count = cosines_.size();
@@ -58,27 +60,42 @@ void HeldOutJudge::sort_target(const Eigen::Vector3f& direction, const hwy::Sort
   cells.build(keys_, target_total_, target_largest_);
 }
 
-void HeldOutJudge::transform(const LobeFrame& frame, const LtcLobe& ltc, Points& points) const {
+void HeldOutJudge::transform(const LobeFrame& frame, const LtcLobe& ltc, HorizonMode horizon,
+                             Points& points) const {
   const Eigen::Matrix3d p = frame.from_matrix(ltc.matrix) *
                             Eigen::Vector3d(frame.lobe.alpha_x, frame.lobe.alpha_y, 1).asDiagonal();
   const double p00 = p(0, 0), p01 = p(0, 1), p02 = p(0, 2);
   const double p10 = p(1, 0), p11 = p(1, 1), p12 = p(1, 2);
   const double p20 = p(2, 0), p21 = p(2, 1), p22 = p(2, 2);
+  const Eigen::RowVector3d up = ltc.matrix.row(2);
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < cosines_.size(); ++i) {
     Eigen::Vector3d at(cosines_.x[i], cosines_.y[i], cosines_.z[i]);
     if (!ltc.creases.empty())
       at = folded(at, ltc.fold, ltc.creases);
+    if (horizon == HorizonMode::scaled && up.dot(at) <= 0)
+      continue;
     const double x = at.x(), y = at.y(), z = at.z();
     const double fx = p00 * x + p01 * y + p02 * z;
     const double fy = p10 * x + p11 * y + p12 * z;
     const double fz = p20 * x + p21 * y + p22 * z;
     const double lateral = fx * fx + fy * fy, length = std::sqrt(lateral + fz * fz);
-    points.x[i] = static_cast<float>(fx / length);
-    points.y[i] = static_cast<float>(fy / length);
+    points.x[kept] = static_cast<float>(fx / length);
+    points.y[kept] = static_cast<float>(fy / length);
     // fz / |f| - 1, without cancellation in front.
-    points.z[i] =
+    points.z[kept] =
         static_cast<float>(fz > 0 ? -lateral / (length * (length + fz)) : fz / length - 1);
+    ++kept;
   }
+  points.count = kept;
+  if (kept == 0)
+    transform(frame, ltc, HorizonMode::clipped, points);
+}
+
+void HeldOutJudge::sort_points(const Eigen::Vector3f& direction, const Points& points,
+                               const hwy::Sorter& sorter, AlignedFloats& sorted) {
+  project(direction, points.x, points.y, points.z, sorted);
+  sorter(sorted.data(), points.count, hwy::SortAscending());
 }
 
 void HeldOutJudge::set_lobe(const Lobe& lobe) {
@@ -97,13 +114,12 @@ void HeldOutJudge::set_lobe(const Lobe& lobe) {
 double HeldOutJudge::loss(const LtcLobe& ltc) {
   if (!ltc.matrix.allFinite())
     return none;
-  transform(*frame_, ltc, points_);
+  transform(*frame_, ltc, horizon_, points_);
   double distance = 0;
   const hwy::Sorter sorter;
   for (std::size_t k = 0; k < directions_.size(); ++k) {
-    project(in_frame(*frame_, directions_[k]), points_.x, points_.y, points_.z, sorted_);
-    sorter(sorted_.data(), sorted_.size(), hwy::SortAscending());
-    distance += cells_[k].distance(sorted_.data());
+    sort_points(in_frame(*frame_, directions_[k]), points_, sorter, sorted_);
+    distance += cells_[k].distance(sorted_.data(), points_.count);
   }
   return distance / static_cast<double>(directions_.size());
 }
@@ -113,9 +129,9 @@ PairJudgement HeldOutJudge::judge_pair(const Lobe& lobe, const LtcLobe& a, const
   sample_target(frame);
   const bool has_a = a.matrix.allFinite(), has_b = b.matrix.allFinite();
   if (has_a)
-    transform(frame, a, points_);
+    transform(frame, a, horizon_, points_);
   if (has_b)
-    transform(frame, b, points_b_);
+    transform(frame, b, horizon_, points_b_);
   PairJudgement sum{has_a ? 0 : none, has_b ? 0 : none, has_a && has_b ? 0 : none, 0};
   const hwy::Sorter sorter;
   for (const Eigen::Vector3d& direction : directions_) {
@@ -123,18 +139,16 @@ PairJudgement HeldOutJudge::judge_pair(const Lobe& lobe, const LtcLobe& a, const
     sort_target(d, sorter, pair_cells_);
     sum.spread += pair_cells_.spread();
     if (has_a) {
-      project(d, points_.x, points_.y, points_.z, sorted_);
-      sorter(sorted_.data(), sorted_.size(), hwy::SortAscending());
-      sum.loss_a += pair_cells_.distance(sorted_.data());
+      sort_points(d, points_, sorter, sorted_);
+      sum.loss_a += pair_cells_.distance(sorted_.data(), points_.count);
     }
     if (has_b) {
-      project(d, points_b_.x, points_b_.y, points_b_.z, sorted_b_);
-      sorter(sorted_b_.data(), sorted_b_.size(), hwy::SortAscending());
-      sum.loss_b += pair_cells_.distance(sorted_b_.data());
+      sort_points(d, points_b_, sorter, sorted_b_);
+      sum.loss_b += pair_cells_.distance(sorted_b_.data(), points_b_.count);
     }
     if (has_a && has_b)
-      sum.distance += kernels::sum_differences(sorted_.data(), sorted_b_.data(), sorted_.size()) /
-                      static_cast<double>(sorted_.size());
+      sum.distance +=
+          sorted_distance(sorted_.data(), points_.count, sorted_b_.data(), points_b_.count);
   }
   const auto count = static_cast<double>(directions_.size());
   return {sum.loss_a / count, sum.loss_b / count, sum.distance / count, sum.spread / count};

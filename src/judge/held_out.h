@@ -14,6 +14,7 @@
 #include "fit/sample_sets.h"
 #include "judge/quantile_cells.h"
 #include "ltc/folded.h"
+#include "ltc/horizon.h"
 
 namespace hwy {
 class Sorter;
@@ -34,9 +35,10 @@ class HeldOutJudge {
  public:
   // `samples` weighted lattice samples of the lobe and as many cosine samples, along `directions`
   // of sample_sets.h's turned ones; the seed shifts the lattices and turns the directions, so that
-  // they differ from those of any fit.
+  // they differ from those of any fit. LTCs whose horizon is scaled are judged by their samples
+  // above it alone (by all where none is).
   explicit HeldOutJudge(std::size_t samples = 16384, std::size_t directions = 64,
-                        std::uint64_t seed = 20220712);
+                        std::uint64_t seed = 20220712, HorizonMode horizon = HorizonMode::clipped);
 
   // Sets the lobe that loss and spread judge against; before either.
   void set_lobe(const Lobe& lobe);
@@ -56,13 +58,19 @@ class HeldOutJudge {
  private:
   struct Points {  // as offsets from the mirror direction, in its frame
     AlignedFloats x, y, z;
+    std::size_t count = 0;  // of them; behind are left-overs
   };
   void sample_target(const LobeFrame& frame);
   // The lobe's samples along one direction.
   void sort_target(const Eigen::Vector3f& direction, const hwy::Sorter& sorter,
                    QuantileCells& cells);
-  void transform(const LobeFrame& frame, const LtcLobe& ltc, Points& points) const;
+  void transform(const LobeFrame& frame, const LtcLobe& ltc, HorizonMode horizon,
+                 Points& points) const;
+  // Points along a direction, in ascending order.
+  static void sort_points(const Eigen::Vector3f& direction, const Points& points,
+                          const hwy::Sorter& sorter, AlignedFloats& sorted);
 
+  HorizonMode horizon_;
   CosineSet cosines_;
   TargetLattice lattice_;
   std::vector<Eigen::Vector3d> directions_;

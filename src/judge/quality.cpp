@@ -47,7 +47,8 @@ void check(const QualitySettings& settings) {
 }
 
 HeldOutJudge node_judge(const QualitySettings& settings, std::size_t flat) {
-  return HeldOutJudge(settings.node_samples, settings.node_directions, settings.seed + flat);
+  return HeldOutJudge(settings.node_samples, settings.node_directions, settings.seed + flat,
+                      settings.horizon);
 }
 
 // By judge_pair, which holds one direction at a time: what set_lobe would keep of all of them is
@@ -68,8 +69,7 @@ QueryQuality judge_query(const Table& table, const QualitySettings& settings,
   if (state != QueryState::judged)
     return left_out(state);
   area_light.set_lobe(floor.lobe, query);
-  return {QueryState::judged,
-          relative_loss(query_judge(settings, query), floor.lobe, found.ltc()),
+  return {QueryState::judged, relative_loss(query_judge(settings, query), floor.lobe, found.ltc()),
           area_light.error(found.ltc()), area_light.error(found.ltc(), found.amplitude),
           share_below_horizon(found.ltc())};
 }
@@ -105,8 +105,8 @@ std::vector<double> judge_nodes(const Table& table, const QualitySettings& setti
   const std::vector<std::size_t> nodes = nodes_to_judge(table, settings);
   parallel_for_each("judge nodes", nodes.size(), run, [&](std::size_t i) {
     const std::size_t flat = nodes[i];
-    losses[flat] = relative_loss(node_judge(settings, flat), table.grid.lobe(flat),
-                                 table.ltc_at(flat));
+    losses[flat] =
+        relative_loss(node_judge(settings, flat), table.grid.lobe(flat), table.ltc_at(flat));
   });
   return losses;
 }
@@ -127,11 +127,12 @@ std::vector<QueryQuality> judge_queries(const Table& table, const QualitySetting
 }  // namespace
 
 HeldOutJudge query_judge(const QualitySettings& settings, std::size_t query) {
-  return HeldOutJudge(settings.query_samples, settings.query_directions, settings.seed + query);
+  return HeldOutJudge(settings.query_samples, settings.query_directions, settings.seed + query,
+                      settings.horizon);
 }
 
 AreaLightJudge area_light_judge(const QualitySettings& settings) {
-  return AreaLightJudge({settings.quads, settings.quad_samples, settings.seed});
+  return AreaLightJudge({settings.quads, settings.quad_samples, settings.seed, settings.horizon});
 }
 
 Answer ask(const Table& table, const Lobe& lobe) {

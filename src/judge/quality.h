@@ -20,6 +20,7 @@
 #include "judge/area_light.h"
 #include "judge/held_out.h"
 #include "judge/statistics.h"
+#include "ltc/horizon.h"
 #include "table/lookup.h"
 #include "table/queries.h"
 #include "table/table.h"
@@ -42,6 +43,8 @@ struct QualitySettings {
   std::size_t quad_samples = 16384;  // weighted samples of the lobe, in two halves
   std::uint64_t seed = 20220712;     // of nodes, queries, samples, directions and rectangles
   std::size_t worst = 6;             // queries to name
+  // How lobes are judged, those of the floor as well.
+  HorizonMode horizon = HorizonMode::clipped;
   FitSettings floor_fit = floor_fit_settings();
 };
 

@@ -20,6 +20,29 @@ float key_weight(std::uint64_t key) {
   return std::bit_cast<float>(key_index(key));
 }
 
+// W times `total`, the mass of either set; the masses of a set are those up to the end of each of
+// its values, the last one `total`.
+template <class MassesX, class MassesY>
+double merged_distance(const float* x, MassesX&& masses_x, const float* y, MassesY&& masses_y,
+                       double total) {
+  double distance = 0, mass = 0;
+  for (std::size_t i = 0, j = 0; mass < total;) {
+    const double end_x = masses_x(i), end_y = masses_y(j), end = std::min(end_x, end_y);
+    distance += (end - mass) * static_cast<double>(std::abs(x[i] - y[j]));
+    mass = end;
+    i += end_x <= end;
+    j += end_y <= end;
+  }
+  return distance;
+}
+
+// Of equally weighted values; the last is `total` without rounding.
+auto equal_masses(std::size_t count, double total) {
+  return [n = static_cast<double>(count), total](std::size_t i) {
+    return total * static_cast<double>(i + 1) / n;
+  };
+}
+
 }  // namespace
 
 void QuantileCells::build(const AlignedVector<std::uint64_t>& keys, double total, float largest) {
@@ -80,14 +103,26 @@ double QuantileCells::walk(std::size_t cell, float x) const {
   return distance;
 }
 
-double QuantileCells::distance(const float* sorted) {
-  const std::size_t count = values_.size();
+double QuantileCells::distance(const float* sorted, std::size_t count) {
+  if (const auto cells = static_cast<double>(values_.size()); count != values_.size())
+    return merged_distance(
+               sorted, equal_masses(count, cells), values_.data(),
+               [&](std::size_t j) { return masses_[j + 1]; }, cells) /
+           cells;
   std::size_t walks = 0;
   double distance =
       kernels::sum_outside(sorted, means_.data(), bounds_.data(), count, to_walk_.data(), walks);
   for (std::size_t i = 0; i < walks; ++i)
     distance += walk(to_walk_[i], sorted[to_walk_[i]]);
   return distance / static_cast<double>(count);
+}
+
+double sorted_distance(const float* x, std::size_t x_count, const float* y, std::size_t y_count) {
+  if (x_count == y_count && x_count % 16 == 0)
+    return kernels::sum_differences(x, y, x_count) / static_cast<double>(x_count);
+  const auto total = static_cast<double>(x_count);
+  return merged_distance(x, equal_masses(x_count, total), y, equal_masses(y_count, total), total) /
+         total;
 }
 
 }  // namespace ltc

@@ -29,8 +29,9 @@ class QuantileCells {
   // `largest` the largest one.
   void build(const AlignedVector<std::uint64_t>& keys, double total, float largest);
 
-  // W above; `sorted`, aligned, holds as many values as there are cells.
-  double distance(const float* sorted);
+  // W above of `count` values, aligned; of as many as there are cells as said, of other numbers
+  // exactly too, value by value.
+  double distance(const float* sorted, std::size_t count);
 
   // int_0^1 |G^-1(u) - G^-1(1/2)| du: the mean absolute deviation from the median.
   double spread() const { return spread_; }
@@ -46,5 +47,8 @@ class QuantileCells {
   AlignedVector<std::uint32_t> to_walk_;  // scratch
   double spread_ = 0;
 };
+
+// W of two sets of equally weighted values, aligned and in ascending order.
+double sorted_distance(const float* x, std::size_t x_count, const float* y, std::size_t y_count);
 
 }  // namespace ltc

@@ -54,6 +54,7 @@ std::vector<Key> quality_keys() {
       key("quality.floor", [](S& s) { return &s.quality.floor_fit.lobe; }, "what is fitted to each query to compare with: an LTC, or one that is folded (docs/folded.md)"),
       key("quality.floor_crease", [](S& s) { return &s.quality.floor_fit.crease; }, Range{0, 10}, "where the folded ones have their creases"),
       key("quality.floor_second_crease", [](S& s) { return &s.quality.floor_fit.second_crease; }, Range{0, 10}, "a second pair of creases, above the first; 0: none"),
+      key("quality.horizon", [](S& s) { return &s.quality.horizon; }, "what becomes of light below the horizon: \"clipped\", lost; \"scaled\", made up for by what is above (docs/accuracy.md)"),
       key("quality.quads", [](S& s) { return &s.quality.quads; }, Range{1, 4096}, "rectangular lights of a query"),
       key("quality.quad_samples", [](S& s) { return &s.quality.quad_samples; }, Range{64, 1 << 20}, "samples of GGX that their light is measured with"),
       key("quality.seed", [](S& s) { return &s.quality.seed; }, Range{0, 9007199254740992.0}, "of nodes, queries, samples, directions and lights"),

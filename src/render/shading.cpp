@@ -215,7 +215,7 @@ double ltc_share(const LtcLobe& ltc, const Light& light) {
   if (light.shape == LightShape::line) {
     const double radius = light.half_v.norm();
     return light.flat() ? ltc_share(ltc.matrix, Line{light.center - light.half_u,
-                                                 light.center + light.half_u, radius})
+                                                     light.center + light.half_u, radius})
                         : 0;
   }
   if (light.outline().empty()) {
@@ -227,12 +227,13 @@ double ltc_share(const LtcLobe& ltc, const Light& light) {
       LinearlyTransformed(ltc.matrix).integrate_polygon(clip_to_upper_hemisphere(light.corners())));
 }
 
-double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light& light) {
+double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light& light,
+                    HorizonMode horizon) {
   const LookUp found = look_up(table, lobe);
   const double albedo = f0 * found.amplitude + (1 - f0) * found.fresnel;
   if (!found.matrix.allFinite() || found.matrix.determinant() == 0 || !std::isfinite(albedo))
     return std::numeric_limits<double>::quiet_NaN();
-  const double share = ltc_share(found.ltc(), light);
+  const double share = horizon_factor(found.ltc(), horizon) * ltc_share(found.ltc(), light);
   return share > 0 ? albedo * share * fetched(found.matrix, light) : 0;
 }
 

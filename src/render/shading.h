@@ -9,6 +9,7 @@
 
 #include "brdf/lattice.h"
 #include "ltc/folded.h"
+#include "ltc/horizon.h"
 #include "render/sphere_scene.h"
 #include "table/table.h"
 
@@ -28,8 +29,10 @@ struct SphereMaterial {
 double ltc_share(const LtcLobe& ltc, const Light& light);
 
 // (F0 amplitude + (1 - F0) fresnel) times that, and times what is fetched from the light's texture
-// (render/light_texture.h). NaN where the table has no value or a matrix without an inverse.
-double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light& light);
+// (render/light_texture.h); scaled up for what the lobe has below the horizon if `horizon` says so.
+// NaN where the table has no value or a matrix without an inverse.
+double ltc_radiance(const Table& table, const Lobe& lobe, double f0, const Light& light,
+                    HorizonMode horizon = HorizonMode::clipped);
 
 // Which samples an estimate is made of. Every choice has the same mean.
 enum class Technique {

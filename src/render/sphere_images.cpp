@@ -95,7 +95,7 @@ class PixelRow {
       sum += integrator_.radiance(lobe, material_.f0, light, shifts);
     }
     for (std::size_t table = 0; table < ltc_.size(); ++table)
-      ltc_[table] += ltc_radiance(*tables_[table], lobe, material_.f0, light);
+      ltc_[table] += ltc_radiance(*tables_[table], lobe, material_.f0, light, settings_.horizon);
   }
 
   std::span<const Table* const> tables_;

@@ -19,6 +19,7 @@ struct SphereSettings {
   SphereScene scene;
   std::size_t size = 320;      // pixels, width and height
   std::size_t samples = 2048;  // of the reference, a pixel; rounded up to a multiple of 16
+  HorizonMode horizon = HorizonMode::clipped;  // of the tables' lobes
 };
 
 // Square images, one value a pixel: radiance over that of the light, 0 where the sphere is not. A

@@ -138,6 +138,22 @@ TEST_F(Render, TakesRoughnessAsEditorsHaveIt) {
     EXPECT_NE(result.out.find(row), std::string::npos) << row << "\n" << result.out;
 }
 
+TEST_F(Render, ScalesWhatIsAboveTheHorizon) {
+  const auto image_of = [&](const std::string& mode) {
+    const ProgramResult result = run({"t.h5", "--material", "0.9,0.4", "--light-size", "4",
+                                      "--horizon", mode, "--json", "all.json", "-o", mode});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto json = nlohmann::json::parse(read_file(folder_ / "all.json"));
+    EXPECT_EQ(json["horizon"], mode);
+    EXPECT_NE(read_file(folder_ / mode / "spheres_0.9_0.4.exr").find(mode), std::string::npos);
+    return json["materials"][0]["tables"][0]["mean_absolute_error"].get<double>();
+  };
+  EXPECT_NE(image_of("clipped"), image_of("scaled"));
+  const ProgramResult refused = run({"t.h5", "--horizon", "cut"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("scaled"), std::string::npos) << refused.err;
+}
+
 TEST_F(Render, StatesTheNoiseOfItsReference) {
   const auto tables_of = [&](const char* samples, const std::string& mark) {
     const ProgramResult result = run_ltcfit({"render", "t.h5", "--material", "0.5,0.5", "--size",

@@ -111,6 +111,8 @@ TEST_F(ValidateQuality, RefusesBadInputInOneLine) {
   expect_refused({"validate", table(), "--report", "/proc/none"}, 3, {"/proc/none"});
   expect_refused({"validate", table(), "--set", "quality.query_directions=0"}, 2,
                  {"quality.query_directions", "[4, 4096]"});
+  expect_refused({"validate", table(), "--set", "quality.horizon=cut"}, 2,
+                 {"quality.horizon", "cut", "clipped", "scaled"});
   expect_refused({"validate", table(), "--no-quality", "--report", "x"}, 2, {"--no-quality"});
 }
 

@@ -135,6 +135,25 @@ TEST(AreaLight, TheAmplitudeCountsWhereItIsGiven) {
               own.mean_absolute);
 }
 
+TEST(AreaLight, ScaledLobesAreBrighterByTheirFactor) {
+  const Lobe low{0.8, 0.3, 1.4, 0.5};
+  AreaLightSettings settings;
+  AreaLightJudge clipped(settings);
+  settings.horizon = HorizonMode::scaled;
+  AreaLightJudge scaled(settings);
+  clipped.set_lobe(low);
+  scaled.set_lobe(low);
+  const Eigen::Matrix3d matrix = testing::first_order_matrix(low);
+  for (const LtcLobe& ltc : {LtcLobe(matrix), LtcLobe(matrix, {-0.6, 0.3}, usual_creases)}) {
+    const double factor = horizon_factor(ltc, HorizonMode::scaled);
+    ASSERT_GT(factor, 1.03);
+    // Rounding of sums of numbers about 0.1.
+    EXPECT_NEAR(scaled.error(ltc).mean_absolute,
+                clipped.error(ltc, factor * clipped.amplitude()).mean_absolute, 1e-12);
+    EXPECT_GT(std::abs(scaled.error(ltc).mean_absolute - clipped.error(ltc).mean_absolute), 1e-3);
+  }
+}
+
 TEST(AreaLight, TheSameLobeHasTheSameQuads) {
   AreaLightJudge judge, other;
   judge.set_lobe(kRough);

@@ -161,6 +161,53 @@ TEST(HeldOut, TheDistanceOfAPairIsThatOfTheReferenceInDouble) {
   }
 }
 
+// Lobes of rough surfaces at grazing views, of which matrix or fold take much below the horizon.
+const Lobe kLow{0.8, 0.3, 1.4, 0.5};
+std::vector<LtcLobe> low_ltcs() {
+  const LobeFrame frame(kLow);
+  const Eigen::Matrix3d matrix = frame.to_matrix(first_order_start(frame));
+  std::vector<LtcLobe> all{matrix, (matrix * Eigen::Vector3d(1.2, 1.5, 1).asDiagonal()).eval()};
+  all.push_back({matrix, {-0.6, 0.3}, usual_creases});
+  return all;
+}
+
+TEST(HeldOut, ScaledLobesAreJudgedByWhatIsAboveTheHorizon) {
+  const std::vector<Eigen::Vector3d> omega_o =
+      test::in_double(make_cosine_set(kSamples, 0.237 + 1e-3 * static_cast<double>(kSeed % 997)));
+  const std::vector<Eigen::Vector3d> directions = turned_directions(kDirections, kSeed);
+  HeldOutJudge clipped(kSamples, kDirections, kSeed),
+      scaled(kSamples, kDirections, kSeed, HorizonMode::scaled);
+  clipped.set_lobe(kLow);
+  scaled.set_lobe(kLow);
+  std::vector<PointSet> above;
+  for (const LtcLobe& ltc : low_ltcs()) {
+    PointSet& set = above.emplace_back();
+    for (const Eigen::Vector3d& o : omega_o) {
+      const Eigen::Vector3d omega = ltc.matrix * folded(o, ltc.fold, ltc.creases);
+      if (omega.z() > 0)
+        set.points.push_back(omega.normalized());
+    }
+    ASSERT_LT(set.points.size(), 0.97 * omega_o.size());
+    const double exact = sliced_wasserstein(target_in_double(kLow), set, directions);
+    // As of all samples, above.
+    EXPECT_NEAR(scaled.loss(ltc) / exact, 1, 3e-5);
+    EXPECT_GT(std::abs(clipped.loss(ltc) / exact - 1), 1e-2);
+  }
+  for (std::size_t i = 1; i < above.size(); ++i) {
+    const PairJudgement pair = scaled.judge_pair(kLow, low_ltcs()[0], low_ltcs()[i]);
+    EXPECT_EQ(pair.loss_b, scaled.loss(low_ltcs()[i]));
+    EXPECT_NEAR(pair.distance / sliced_wasserstein(above[0], above[i], directions), 1, 3e-5);
+  }
+}
+
+TEST(HeldOut, WhereNothingIsAboveTheHorizonAllIsJudged) {
+  HeldOutJudge clipped(256, 4), scaled(256, 4, 20220712, HorizonMode::scaled);
+  const Eigen::Matrix3d below = Eigen::Vector3d(1, 1, -1).asDiagonal();
+  clipped.set_lobe(kLow);
+  scaled.set_lobe(kLow);
+  EXPECT_EQ(scaled.loss(below), clipped.loss(below));
+}
+
 TEST(HeldOut, OfAPairOnlyWhatIsMissingHasNoFigure) {
   HeldOutJudge judge(256, 4);
   const Eigen::Matrix3d good = Eigen::Matrix3d::Identity();

@@ -28,12 +28,12 @@ double merged_distance(const Example& example) {
   std::sort(order.begin(), order.end(),
             [&](auto a, auto b) { return example.values[a] < example.values[b]; });
   const double total = std::accumulate(example.weights.begin(), example.weights.end(), 0.0);
-  const auto count = static_cast<double>(order.size());
+  const auto count = static_cast<double>(example.sorted.size());
   double distance = 0, u = 0, mass = 0;
   std::size_t i = 0;
   for (const std::size_t j : order) {
     mass += example.weights[j] / total;
-    while (u < mass && i < order.size()) {
+    while (u < mass && i < example.sorted.size()) {
       const double step = static_cast<double>(i + 1) / count, next = std::min(step, mass);
       distance += (next - u) * std::abs(double{example.sorted[i]} - double{example.values[j]});
       u = next;
@@ -104,8 +104,30 @@ std::vector<Example> examples() {
 TEST(QuantileCells, DistanceIsThatOfMergedSteps) {
   for (const Example& example : examples())
     // Means in single precision, each off by at most 2^-24 of values below 4.
-    EXPECT_NEAR(cells_of(example).distance(example.sorted.data()), merged_distance(example), 2e-7)
+    EXPECT_NEAR(cells_of(example).distance(example.sorted.data(), example.sorted.size()),
+                merged_distance(example), 2e-7)
         << example.name;
+}
+
+TEST(QuantileCells, SoIsThatOfAnyNumberOfValues) {
+  for (Example example : examples()) {
+    for (const std::size_t kept : {1000, 512, 37, 1}) {
+      example.sorted.resize(kept);
+      EXPECT_NEAR(cells_of(example).distance(example.sorted.data(), kept), merged_distance(example),
+                  1e-12)
+          << example.name << ", " << kept;
+    }
+  }
+}
+
+TEST(QuantileCells, SortedSetsOfAnyNumbersHaveADistance) {
+  // All of y is one value: the mean distance from it.
+  AlignedFloats x{0, 1, 2, 3}, y{5, 5, 5, 5, 5, 5};
+  EXPECT_NEAR(sorted_distance(x.data(), 4, y.data(), 6), 3.5, 1e-15);
+  y = {0, 0, 1, 2, 3, 3};
+  // Masses of 12: 3 of each x, 2 of each y; off by 1 in (3, 4) and (8, 9).
+  EXPECT_NEAR(sorted_distance(x.data(), 4, y.data(), 6), 2.0 / 12, 1e-15);
+  EXPECT_EQ(sorted_distance(x.data(), 4, x.data(), 4), 0);
 }
 
 TEST(QuantileCells, SpreadIsTheLeastDistanceToOneValue) {
@@ -120,7 +142,7 @@ TEST(QuantileCells, ASetHasNoDistanceToItself) {
   example.sorted.assign(example.values.begin(), example.values.end());
   std::sort(example.sorted.begin(), example.sorted.end());
   // Means in single precision of values in [-0.5, 0.5].
-  EXPECT_LT(cells_of(example).distance(example.sorted.data()), 1e-8);
+  EXPECT_LT(cells_of(example).distance(example.sorted.data(), example.sorted.size()), 1e-8);
 }
 
 TEST(QuantileCells, AMoveByMoreThanTheSetsWidthIsTheDistance) {
@@ -128,7 +150,8 @@ TEST(QuantileCells, AMoveByMoreThanTheSetsWidthIsTheDistance) {
     if (!example.name.ends_with("equal weights, far") ||
         example.name.find("unequal") != std::string::npos)
       continue;
-    EXPECT_NEAR(cells_of(example).distance(example.sorted.data()), 3, 2e-7) << example.name;
+    EXPECT_NEAR(cells_of(example).distance(example.sorted.data(), example.sorted.size()), 3, 2e-7)
+        << example.name;
   }
 }
 

@@ -326,6 +326,17 @@ TEST(LtcRadiance, LightFromEverywhereGivesTheAlbedo) {
                 f0 * found.amplitude + (1 - f0) * found.fresnel, 1e-5);
 }
 
+TEST(LtcRadiance, ScaledLightFromEverywhereGivesTheAlbedoOfEveryLobe) {
+  const Table table = testing::synthetic_table(Grid::paper(3), Storage::matrix);
+  const Lobe lobe{0.9, 0.5, 1.3, 0.4};
+  const LookUp found = look_up(table, lobe);
+  const double below = share_below_horizon(found.ltc());
+  ASSERT_GT(below, 0.02);
+  // The strip that the light leaves free, 1e-6 high.
+  EXPECT_NEAR(ltc_radiance(table, lobe, 1, kSky, HorizonMode::scaled), found.amplitude, 1e-5);
+  EXPECT_NEAR(ltc_radiance(table, lobe, 1, kSky), (1 - below) * found.amplitude, 1e-5);
+}
+
 TEST(LtcRadiance, IsGgxWhereGgxIsAnLtc) {
   // A sharp lobe at the only node of a table: the closed form is GGX to first order in alpha.
   Grid grid;

@@ -15,6 +15,7 @@
 #include "export/texture_layout.h"
 #include "field/synthetic_field.h"
 #include "ltc/disk.h"
+#include "ltc/horizon.h"
 #include "ltc/ltsd.h"
 #include "ltc/polygon.h"
 #include "support/program.h"
@@ -258,8 +259,10 @@ double light_of(const Eigen::Matrix3d& matrix, const Case& asked) {
       return LinearlyTransformed(matrix)
           .sample(uniform(asked.b.x()), uniform(asked.b.y()))
           .dot(asked.a.normalized());
-    default:
+    case LightKind::below_horizon:
       return share_below_horizon(matrix);
+    default:
+      return horizon_factor(matrix, HorizonMode::scaled);
   }
 }
 
@@ -306,6 +309,8 @@ double folded_light_of(const Eigen::Matrix3d& matrix, const Fold& fold, const Cr
       return lobe.sample(uniform(asked.b.x()), uniform(asked.b.y())).dot(asked.a.normalized());
     case LightKind::below_horizon:
       return share_below_horizon(LtcLobe(matrix, fold, creases));
+    case LightKind::horizon_factor:
+      return horizon_factor({matrix, fold, creases}, HorizonMode::scaled);
     default:
       return share(quad(asked));
   }

@@ -83,7 +83,10 @@ float ltc_case_light(LtcLobe lobe, float light, vec3 p, vec3 a, vec3 b, float ra
   if (light < 7.5) {
     return dot(ltc_direction(lobe, fract(abs(b.x)), fract(abs(b.y))), normalize(a));
   }
-  return ltc_below_horizon(lobe);
+  if (light < 8.5) {
+    return ltc_below_horizon(lobe);
+  }
+  return ltc_horizon_factor(lobe);
 }
 
 float ltc_case_star_folded(LtcFoldedLobe lobe, vec3 center, vec3 a, vec3 b) {
@@ -114,6 +117,9 @@ float ltc_case_light_folded(LtcFoldedLobe lobe, float light, vec3 p, vec3 a, vec
   }
   if (light > 6.5 && light < 7.5) {
     return dot(ltc_direction_folded(lobe, fract(abs(b.x)), fract(abs(b.y))), normalize(a));
+  }
+  if (light > 8.5) {
+    return ltc_horizon_factor_folded(lobe);
   }
   if (light > 7.5) {
     return ltc_below_horizon_folded(lobe);

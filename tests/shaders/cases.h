@@ -27,8 +27,8 @@ constexpr int look_up_kinds = 9;
 constexpr bool is_folded(LookUpKind kind) {
   return kind >= LookUpKind::folded_field;
 }
-// The last three are no lights: a density, a sample, the share below the horizon. Of folded lobes
-// quad_as_sphere is a quad.
+// The last four are no lights: a density, a sample, the share below the horizon, what makes up for
+// it. Of folded lobes quad_as_sphere is a quad.
 enum class LightKind {
   quad,
   star,
@@ -38,9 +38,10 @@ enum class LightKind {
   quad_as_sphere,
   density,
   direction,
-  below_horizon
+  below_horizon,
+  horizon_factor
 };
-constexpr int light_kinds = 9;
+constexpr int light_kinds = 10;
 
 struct Case {
   Eigen::Vector3d view;

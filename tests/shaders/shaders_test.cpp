@@ -92,10 +92,12 @@ class Comparison {
                 1e-5 * std::max(1.0, w.row(row).norm() * m.col(column).norm()));
     if (filtered || c.look_up == LookUpKind::isotropic)
       return;
-    // A density is as large as the lobe is small; a sample is by the driver's own sine.
-    const double scale = c.light == LightKind::density     ? std::max(1.0, e.share)
-                         : c.light == LightKind::direction ? 10
-                                                           : 1;
+    // A density is as large as the lobe is small; a sample is by the driver's own sine; a factor
+    // feels what it is the inverse of by its square.
+    const double scale = c.light == LightKind::density          ? std::max(1.0, e.share)
+                         : c.light == LightKind::direction      ? 10
+                         : c.light == LightKind::horizon_factor ? e.share * e.share
+                                                                : 1;
     require(i, "a light's share", std::abs(at(i, 2, 3) - e.share), 1e-4 * scale);
     const bool folded = is_folded(c.look_up);
     for (int axis = 0; axis < 3; ++axis)
@@ -176,6 +178,8 @@ TEST_P(Shaders, APlantedErrorIsNoticed) {
   if (GetParam().name == std::string("OpenGLES"))
     all = {"dot(lobe.w2, p)",
            "0.5 / LTC_PI * normal.z",
+           "1.0 - ltc_below_horizon(lobe)",
+           "1.0 - ltc_below_horizon_folded(folded)",
            "1.0 / (1.0 + v.z)",
            "1.0 - sqrt(1.0 - x)",
            "radius / LTC_PI * sum",
