@@ -70,6 +70,12 @@ void check_together(const Draft& draft, const config::Sources& sources) {
         "{}: fit.lobe = \"folded\" with fit.solver = \"{}\"; expected \"gauss-newton\", the only "
         "one that fits folds",
         config::latest_source(sources, {"fit.lobe", "fit.solver"}), name_of(fit.solver)));
+  if (fit.horizon == HorizonMode::scaled && fit.solver != SolverKind::gauss_newton)
+    throw InputError(fmt::format(
+        "{}: fit.horizon = \"scaled\" with fit.solver = \"{}\"; expected \"gauss-newton\", the "
+        "only "
+        "one that fits what is above the horizon alone",
+        config::latest_source(sources, {"fit.horizon", "fit.solver"}), name_of(fit.solver)));
   if (fit.lobe == LobeKind::folded && fit.second_crease > 0 && fit.second_crease <= fit.crease)
     throw InputError(
         fmt::format("{}: fit.second_crease = {} is not above fit.crease = {}; expected more, or 0",

@@ -59,6 +59,7 @@ Draft draft_of(const Config& config) {
 Config config_of(const Draft& draft) {
   Config config = draft.config;
   config.field.creases = config.fit.creases();
+  config.refine.sampling.horizon = config.fit.horizon;
   if (config.fit.lobe == LobeKind::folded)
     config.storage = Storage::folded;
   config.grid.alpha = axis_of(draft.alpha);

@@ -64,14 +64,14 @@ FitResult no_result(int steps) {
 }  // namespace
 
 GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target,
-                                     const Creases& creases)
+                                     const Creases& creases, HorizonMode horizon)
     : settings_(settings),
       target_kind_(target),
       creases_(creases),
       directions_(in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)))),
       bins_(bins_for(settings.samples)),
-      usual_(make_ladder(settings, creases)),
-      graded_(make_graded_ladder(settings, creases)) {}
+      usual_(make_ladder(settings, creases, horizon)),
+      graded_(make_graded_ladder(settings, creases, horizon)) {}
 
 const SampleLadder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
   return target_kind_ == TargetKind::weighted && (is_extreme(frame) || is_sharp(frame)) ? graded_

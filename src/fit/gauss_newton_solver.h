@@ -25,7 +25,7 @@ namespace ltc {
 class GaussNewtonSolver final : public Solver {
  public:
   GaussNewtonSolver(const GaussNewtonSettings& settings, TargetKind target,
-                    const Creases& creases = {});
+                    const Creases& creases = {}, HorizonMode horizon = HorizonMode::clipped);
 
   FitResult fit(const FitRequest& request, FitWorkspace& workspace,
                 std::vector<FitStep>* trace) const override;

@@ -245,10 +245,29 @@ namespace {
 
 using kernels::directions_at_once;
 
+using Counts = AlignedVector<std::int32_t>;
+
+// How often each transformed sample counts; empty where all do once. Where none is above the
+// horizon, all count.
+const Counts& counts_of(const ModelPoint& point, ModelWorkspace& workspace) {
+  const CosineSet& cosines = point.cosines;
+  if (cosines.horizon == HorizonMode::clipped)
+    return cosines.multiplicity;
+  const Eigen::RowVector3f up = point.frame.rotation.row(2).cast<float>();
+  Counts& counts = workspace.counts;
+  counts.resize(cosines.size());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const float height =
+        up.x() * workspace.gx[i] + up.y() * workspace.gy[i] + up.z() * workspace.gz[i] + up.z();
+    counts[i] = height <= 0 ? 0 : cosines.multiplicity.empty() ? 1 : cosines.multiplicity[i];
+  }
+  return total_of(counts, 0) > 0 ? counts : cosines.multiplicity;
+}
+
 // Each sample's row as often as it counts.
-void multiply_rows(const CosineSet& cosines, std::size_t width, AlignedFloats& rows) {
-  for (std::size_t i = 0; i < cosines.multiplicity.size(); ++i) {
-    const auto factor = static_cast<float>(cosines.multiplicity[i]);
+void multiply_rows(const Counts& counts, std::size_t width, AlignedFloats& rows) {
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto factor = static_cast<float>(counts[i]);
     float* row = rows.data() + i * width;
     for (std::size_t entry = 0; entry < width; ++entry)
       row[entry] *= factor;
@@ -256,23 +275,22 @@ void multiply_rows(const CosineSet& cosines, std::size_t width, AlignedFloats& r
 }
 
 // The populations anew.
-void count_with_multiplicity(const CosineSet& cosines, std::size_t group, std::size_t bins,
+void count_with_multiplicity(const Counts& counts, std::size_t group, std::size_t bins,
                              ModelWorkspace& workspace) {
-  const std::size_t count = cosines.size();
+  const std::size_t count = counts.size();
   std::fill_n(workspace.populations.data(), group * bins, 0);
   for (std::size_t member = 0; member < group; ++member) {
     const std::int32_t* of_sample = workspace.bins.data() + member * count;
     std::int32_t* populations = workspace.populations.data() + member * bins;
     for (std::size_t i = 0; i < count; ++i)
-      populations[of_sample[i]] += cosines.multiplicity[i];
+      populations[of_sample[i]] += counts[i];
   }
 }
 
 // The rows of all samples, summed into the bins of each of `maps`.
 template <std::size_t columns>
-void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, const CosineSet& cosines,
-                   std::size_t bins, ModelWorkspace& workspace) {
-  const std::size_t count = cosines.size();
+void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, std::size_t count,
+                   const Counts& counts, std::size_t bins, ModelWorkspace& workspace) {
   std::array<float, directions_at_once> direction_z;
   for (std::size_t member = 0; member < maps.size(); ++member) {
     direction_z[member] = maps[member]->direction_z;
@@ -285,8 +303,8 @@ void sum_into_bins(std::span<const kernels::ProjectionMap* const> maps, const Co
   kernels::accumulate_rows({workspace.xi.data(), workspace.bins.data(), count, bins},
                            workspace.rows.data(), direction_z.data(), maps.size(),
                            {workspace.sums.data(), workspace.populations.data()}, columns);
-  if (!cosines.multiplicity.empty())
-    count_with_multiplicity(cosines, maps.size(), bins, workspace);
+  if (!counts.empty())
+    count_with_multiplicity(counts, maps.size(), bins, workspace);
 }
 
 // Adds what one direction's bins say.
@@ -314,7 +332,7 @@ void evaluate(const ModelPoint& point, const FoldedColumn* fold, ModelWorkspace&
   constexpr std::size_t columns = numbers / 3, width = kernels::row_width_of(columns);
   const CosineSet& cosines = point.cosines;
   const TargetQuantiles& target = point.target;
-  const std::size_t count = cosines.size(), total = cosines.total(), bins = target.bin_count();
+  const std::size_t count = cosines.size(), bins = target.bin_count();
   workspace.reserve(count, bins, columns);
   float p[9];
   for (int i = 0; i < 9; ++i)
@@ -326,7 +344,9 @@ void evaluate(const ModelPoint& point, const FoldedColumn* fold, ModelWorkspace&
        fold ? fold->u.data() : nullptr},
       {cosines.x.data(), cosines.y.data(), cosines.z.data(), count},
       {workspace.gx.data(), workspace.gy.data(), workspace.gz.data(), workspace.rows.data()});
-  multiply_rows(cosines, width, workspace.rows);
+  const Counts& counts = counts_of(point, workspace);
+  const std::size_t total = total_of(counts, count);
+  multiply_rows(counts, width, workspace.rows);
   value.gradient.setZero();
   value.curvature.setZero();
   value.loss = 0;
@@ -337,7 +357,7 @@ void evaluate(const ModelPoint& point, const FoldedColumn* fold, ModelWorkspace&
     std::size_t group = 0;
     for (; group < directions_at_once && k < target.direction_count(); k += point.direction_stride)
       maps[group++] = &target.map(k);
-    sum_into_bins<columns>({maps.data(), group}, cosines, bins, workspace);
+    sum_into_bins<columns>({maps.data(), group}, count, counts, bins, workspace);
     for (std::size_t member = 0; member < group; ++member)
       add_direction<numbers>({*maps[member], workspace.sums.data() + member * bins * width,
                               workspace.populations.data() + member * bins, bins, total, columns},

@@ -12,6 +12,8 @@
 // block's mean dx/dP (nine numbers), r its mean difference from the target's quantiles and p its
 // share of the samples, iteratively reweighted least squares for the L1 loss has
 //     gradient = sum p r/(|r| + e) J,     curvature = sum p/(|r| + e) J J^T.
+// Where the horizon is scaled (ltc/horizon.h), all of this is of the samples above it: the loss
+// exactly so, the gradient but for what moves across the horizon.
 #pragma once
 
 #include <Eigen/Core>
@@ -141,7 +143,7 @@ struct ModelWorkspace {
   void reserve(std::size_t samples, std::size_t bin_count, std::size_t columns = 3);
 
   AlignedFloats gx, gy, gz, rows, xi, sums, scratch;
-  AlignedVector<std::int32_t> bins, populations;
+  AlignedVector<std::int32_t> bins, populations, counts;
 };
 
 // Where the model is evaluated: at P, with samples of the cosine, along every `direction_stride`-th

@@ -39,17 +39,20 @@ SampleLevel make_fine(CosineSet cosines, const GaussNewtonSettings& settings) {
   return level;
 }
 
-void set_creases(SampleLadder& ladder, const Creases& creases) {
-  if (creases.empty())
-    return;
-  ladder.coarse.u = crease_distances(ladder.coarse.cosines, creases);
-  for (SampleLevel& level : ladder.levels)
-    level.u = crease_distances(level.cosines, creases);
+void set_lobe(SampleLadder& ladder, const Creases& creases, HorizonMode horizon) {
+  const auto set = [&](SampleLevel& level) {
+    level.cosines.horizon = horizon;
+    if (!creases.empty())
+      level.u = crease_distances(level.cosines, creases);
+  };
+  set(ladder.coarse);
+  std::ranges::for_each(ladder.levels, set);
 }
 
 }  // namespace
 
-SampleLadder make_ladder(const GaussNewtonSettings& settings, const Creases& creases) {
+SampleLadder make_ladder(const GaussNewtonSettings& settings, const Creases& creases,
+                         HorizonMode horizon) {
   const auto target_samples = static_cast<std::size_t>(settings.target_samples);
   SampleLadder ladder;
   ladder.lattice = make_target_lattice(target_samples, 0.3);
@@ -65,11 +68,12 @@ SampleLadder make_ladder(const GaussNewtonSettings& settings, const Creases& cre
     ladder.levels.push_back(
         make_fine(make_cosine_set(static_cast<std::size_t>(samples)), settings));
   }
-  set_creases(ladder, creases);
+  set_lobe(ladder, creases, horizon);
   return ladder;
 }
 
-SampleLadder make_graded_ladder(const GaussNewtonSettings& settings, const Creases& creases) {
+SampleLadder make_graded_ladder(const GaussNewtonSettings& settings, const Creases& creases,
+                                HorizonMode horizon) {
   const auto coarse =
       static_cast<std::size_t>(std::max(settings.coarse_samples, least_graded_samples));
   const auto fine = static_cast<std::size_t>(
@@ -82,7 +86,7 @@ SampleLadder make_graded_ladder(const GaussNewtonSettings& settings, const Creas
   ladder.levels.push_back(make_fine(make_graded_cosine_set(fine), settings));
   for (SampleLevel* level : {&ladder.coarse, &ladder.levels.back()})
     level->options.prior_weight = graded_prior_weight;
-  set_creases(ladder, creases);
+  set_lobe(ladder, creases, horizon);
   return ladder;
 }
 

@@ -30,14 +30,16 @@ struct SampleLadder {
 };
 
 // For most lobes: equally weighted samples, up to as many as the settings say.
-SampleLadder make_ladder(const GaussNewtonSettings& settings, const Creases& creases = {});
+SampleLadder make_ladder(const GaussNewtonSettings& settings, const Creases& creases = {},
+                         HorizonMode horizon = HorizonMode::clipped);
 
 // For sharp and for extreme lobes. The tails of sharp lobes are so heavy that with equally weighted
 // samples the outermost one alone makes up per cents of the loss: the fit follows its noise. Graded
 // sets have a thousand times lighter ones out there. Besides, each level draws the target from the
 // very lattice of its cosine set: to first order P0 sends a cosine sample to where the visible
 // normal of the same lattice point reflects, so that what noise is left is the same on both sides.
-SampleLadder make_graded_ladder(const GaussNewtonSettings& settings, const Creases& creases = {});
+SampleLadder make_graded_ladder(const GaussNewtonSettings& settings, const Creases& creases = {},
+                                HorizonMode horizon = HorizonMode::clipped);
 
 // The first level that has samples enough for a lobe whose loss is this share of its spread.
 std::size_t level_for(const SampleLadder& ladder, double relative_loss);

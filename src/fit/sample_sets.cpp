@@ -24,7 +24,11 @@ CosineSet make_cosine_set(std::size_t count, double shift) {
 }
 
 std::size_t CosineSet::total() const {
-  std::size_t sum = multiplicity.empty() ? size() : 0;
+  return total_of(multiplicity, size());
+}
+
+std::size_t total_of(const AlignedVector<std::int32_t>& multiplicity, std::size_t samples) {
+  std::size_t sum = multiplicity.empty() ? samples : 0;
   for (const std::int32_t count : multiplicity)
     sum += static_cast<std::size_t>(count);
   return sum;

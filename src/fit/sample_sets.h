@@ -15,6 +15,7 @@
 #include "brdf/lattice.h"
 #include "core/aligned.h"
 #include "ltc/folded.h"
+#include "ltc/horizon.h"
 
 namespace ltc {
 
@@ -23,9 +24,12 @@ struct CosineSet {
   AlignedFloats x, y, z;
   // What each sample counts; empty where all weigh the same.
   AlignedVector<std::int32_t> multiplicity;
+  // Scaled: what a lobe takes below the horizon counts nothing.
+  HorizonMode horizon = HorizonMode::clipped;
   std::size_t size() const { return x.size(); }
   std::size_t total() const;  // of the multiplicities
 };
+std::size_t total_of(const AlignedVector<std::int32_t>& multiplicity, std::size_t samples);
 // `count` (rounded up to a multiple of 16) samples of a golden-ratio lattice; `shift` turns the
 // lattice by that share of a circle: sets with different shifts share no samples.
 CosineSet make_cosine_set(std::size_t count, double shift = 0.0);

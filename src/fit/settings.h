@@ -7,6 +7,7 @@
 
 #include "core/enum_names.h"
 #include "ltc/folded.h"
+#include "ltc/horizon.h"
 
 namespace ltc {
 
@@ -92,6 +93,8 @@ struct FitSettings {
   LobeKind lobe = LobeKind::single;  // folded ones by Gauss-Newton alone
   double crease = 0.4;               // h of a fold's first pair of creases, [0, 10]
   double second_crease = 0;          // of its second pair, above the first, [0, 10]; 0: none
+  // Whether lobes are fitted for what is above the horizon alone; by Gauss-Newton alone.
+  HorizonMode horizon = HorizonMode::clipped;
   TargetKind target = TargetKind::weighted;
   std::uint64_t seed = 1;
   GaussNewtonSettings gauss_newton;

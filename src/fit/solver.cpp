@@ -27,7 +27,7 @@ std::unique_ptr<Solver> make_solver(const FitSettings& settings) {
       break;
   }
   return std::make_unique<GaussNewtonSolver>(settings.gauss_newton, settings.target,
-                                             settings.creases());
+                                             settings.creases(), settings.horizon);
 }
 
 }  // namespace ltc

@@ -33,12 +33,16 @@ struct PairJudgement {
 // Sorts, never bins: the distance between the two sample sets is exact.
 class HeldOutJudge {
  public:
+  static constexpr std::size_t usual_samples = 16384, usual_directions = 64;
+  static constexpr std::uint64_t usual_seed = 20220712;
+
   // `samples` weighted lattice samples of the lobe and as many cosine samples, along `directions`
   // of sample_sets.h's turned ones; the seed shifts the lattices and turns the directions, so that
   // they differ from those of any fit. LTCs whose horizon is scaled are judged by their samples
   // above it alone (by all where none is).
-  explicit HeldOutJudge(std::size_t samples = 16384, std::size_t directions = 64,
-                        std::uint64_t seed = 20220712, HorizonMode horizon = HorizonMode::clipped);
+  explicit HeldOutJudge(std::size_t samples = usual_samples,
+                        std::size_t directions = usual_directions, std::uint64_t seed = usual_seed,
+                        HorizonMode horizon = HorizonMode::clipped);
 
   // Sets the lobe that loss and spread judge against; before either.
   void set_lobe(const Lobe& lobe);

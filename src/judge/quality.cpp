@@ -157,7 +157,9 @@ std::vector<QueryFloor> fit_queries(const QualitySettings& settings, const Grid&
   const std::vector<Lobe> lobes =
       random_queries(settings.range, settings.queries, settings.seed, grid.alpha_min, *grid.model);
   std::vector<QueryFloor> floors(lobes.size());
-  const std::unique_ptr<Solver> solver = make_solver(settings.floor_fit);
+  FitSettings floor_fit = settings.floor_fit;
+  floor_fit.horizon = settings.horizon;
+  const std::unique_ptr<Solver> solver = make_solver(floor_fit);
   const Creases creases = settings.floor_fit.creases();
   struct State {
     FitWorkspacePointer workspace;

@@ -43,7 +43,7 @@ struct QualitySettings {
   std::size_t quad_samples = 16384;  // weighted samples of the lobe, in two halves
   std::uint64_t seed = 20220712;     // of nodes, queries, samples, directions and rectangles
   std::size_t worst = 6;             // queries to name
-  // How lobes are judged, those of the floor as well.
+  // How lobes are judged; those of the floor are fitted so.
   HorizonMode horizon = HorizonMode::clipped;
   FitSettings floor_fit = floor_fit_settings();
 };

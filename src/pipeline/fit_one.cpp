@@ -27,7 +27,8 @@ constexpr std::size_t check_directions = 8;
 // From the solver's matrix to the table, and what judges it.
 void finish(const Config& config, LobeFit& fit) {
   fit.albedo = integrate_albedo(fit.lobe, AlbedoRule());
-  HeldOutJudge judge;
+  HeldOutJudge judge(HeldOutJudge::usual_samples, HeldOutJudge::usual_directions,
+                     HeldOutJudge::usual_seed, config.fit.horizon);
   judge.set_lobe(fit.lobe);
   fit.spread = judge.spread();
   fit.aligned = fit.finished.stored = fit.matrix =

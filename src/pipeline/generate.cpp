@@ -386,6 +386,9 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     align_all(entries, run);
     finish_stage("align");
     post_process_all(config.grid, entries, table, run, result);
+    // Files state the losses of whole lobes.
+    if (config.fit.horizon == HorizonMode::scaled)
+      measure_losses(run, table);
     finish_stage("post-process");
   }
   describe(config, table);

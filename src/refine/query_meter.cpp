@@ -29,6 +29,7 @@ QueryMeter::QueryMeter(const QuerySampling& sampling, double shift) {
                      make_target_lattice(static_cast<std::size_t>(sampling.target_samples), turned),
                      {},
                      {}});
+    sets_.back().cosines.horizon = sampling.horizon;
     const Eigen::Matrix3d rotation = random_rotation(random);
     for (const Eigen::Vector3d& d :
          fibonacci_directions(static_cast<std::size_t>(sampling.directions)))

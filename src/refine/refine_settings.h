@@ -3,6 +3,7 @@
 // What the config's [refine] section says.
 #pragma once
 
+#include "ltc/horizon.h"
 #include "table/queries.h"
 
 namespace ltc {
@@ -13,6 +14,8 @@ struct QuerySampling {
   int samples = 512;          // cosine samples, [64, 65536]
   int directions = 8;         // projection directions, [4, 4096]
   int target_samples = 1024;  // weighted GGX samples, [64, 1048576]
+  // As FitSettings::horizon, which sets it.
+  HorizonMode horizon = HorizonMode::clipped;
 };
 
 struct RefineSettings {

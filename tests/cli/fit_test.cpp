@@ -331,6 +331,8 @@ TEST(FitBadInput, HowToFit) {
   refuse({"--samples", "3", "--solver", "sgd"}, 2, {"fit.sgd.samples", "[16, 1048576]"});
   refuse({"--set", "fit.lobe=bent"}, 2, {"fit.lobe", "bent", "single", "folded"});
   refuse({"--set", "fit.lobe=folded"}, 2, {"fit.lobe", "folded", "single"});
+  refuse({"--set", "fit.horizon=scaled", "--solver", "sgd"}, 2,
+         {"fit.horizon", "sgd", "gauss-newton"});
   refuse({"--set", "fit.lobe=folded", "--solver", "sgd"}, 2,
          {"fit.lobe", "fit.solver = \"sgd\"", "gauss-newton"});
   refuse({"--set", "fit.lobe=folded", "--set", "fit.crease=1", "--set", "fit.second_crease=0.5"}, 2,

@@ -140,7 +140,7 @@ TEST_F(Render, TakesRoughnessAsEditorsHaveIt) {
 
 TEST_F(Render, ScalesWhatIsAboveTheHorizon) {
   const auto image_of = [&](const std::string& mode) {
-    const ProgramResult result = run({"t.h5", "--material", "0.9,0.4", "--light-size", "4",
+    const ProgramResult result = run({"t.h5", "--material", "0.9,0.4", "--light-size", "2",
                                       "--horizon", mode, "--json", "all.json", "-o", mode});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     const auto json = nlohmann::json::parse(read_file(folder_ / "all.json"));

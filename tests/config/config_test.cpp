@@ -80,10 +80,11 @@ TEST(Config, EveryKeyChangesTheTextAndReadsBack) {
     const Config changed = load({key.name + "=" + value});
     EXPECT_NE(to_toml(changed), to_toml(Config{}));
     EXPECT_EQ(to_toml(load_text(to_toml(changed))), to_toml(changed));
-    // No files at all, lattices of rejected samples, and folds by other solvers are refused
-    // together only.
+    // No files at all, lattices of rejected samples, folds and horizons by other solvers are
+    // refused together only.
     const bool goes_with_all = (!key.name.starts_with("output.") || key.name == "output.name") &&
-                               key.name != "fit.sgd.lattice_samples" && key.name != "fit.lobe";
+                               key.name != "fit.sgd.lattice_samples" && key.name != "fit.lobe" &&
+                               key.name != "fit.horizon";
     if (goes_with_all)
       all.push_back(key.name + "=" + value);
   }

@@ -164,6 +164,34 @@ TEST(QuantileModel, WithoutAFoldTheFoldedOneIsThePlainOne) {
   }
 }
 
+TEST(QuantileModel, WithAScaledHorizonItIsOfTheSamplesAboveIt) {
+  Model model({0.8, 0.3, 1.4, 0.5});
+  const Eigen::Matrix3d p = model.away_from_minimum();
+  const ModelValue clipped = model(p, 1e-3);
+  PointSet above;
+  CosineSet counted = model.cosines;
+  for (const Eigen::Vector3d& o : test::in_double(model.cosines)) {
+    const Eigen::Vector3d omega = model.frame.to_matrix(p) * o;
+    counted.multiplicity.push_back(omega.z() > 0);
+    if (omega.z() > 0)
+      above.points.push_back(model.frame.rotation.transpose() * omega.normalized());
+  }
+  ASSERT_LT(above.points.size(), 0.95 * static_cast<double>(counted.size()));
+  model.cosines.horizon = HorizonMode::scaled;
+  const ModelValue scaled = model(p, 1e-3);
+  // Bins of a 64th of the samples against the sorted loss, as above.
+  EXPECT_NEAR(
+      scaled.loss / sliced_wasserstein(test::in_double(model.samples), above, model.directions), 1,
+      0.01);
+  EXPECT_GT(std::abs(scaled.loss / clipped.loss - 1), 0.03);
+  // The same sums in the same order.
+  model.cosines = counted;
+  const ModelValue expected = model(p, 1e-3);
+  EXPECT_EQ(scaled.loss, expected.loss);
+  EXPECT_EQ(scaled.gradient, expected.gradient);
+  EXPECT_EQ(scaled.curvature, expected.curvature);
+}
+
 TEST(QuantileModel, ScaleMovesNothing) {
   for (const Lobe& lobe : test::all_lobes()) {
     Model model(lobe);

@@ -110,14 +110,13 @@ TEST(Quality, TheHorizonIsThatOfTableAndFloor) {
   settings.horizon = HorizonMode::scaled;
   const QualityReport scaled = measure_quality(small_table(), settings, {2});
   const QualityReport clipped = quick_report(small_table());
-  // The same fits, judged otherwise.
-  EXPECT_EQ(scaled.floors[0].matrix, clipped.floors[0].matrix);
+  EXPECT_LT(scaled.floor_losses.mean, 0.95 * clipped.floor_losses.mean);
   EXPECT_NE(scaled.nodes.mean, clipped.nodes.mean);
   EXPECT_NE(scaled.query_losses.mean, clipped.query_losses.mean);
-  EXPECT_NE(scaled.floor_losses.mean, clipped.floor_losses.mean);
   EXPECT_NE(scaled.area_light.mean, clipped.area_light.mean);
   EXPECT_NE(scaled.area_light_with_amplitude.mean, clipped.area_light_with_amplitude.mean);
-  EXPECT_NE(scaled.floor_area_light.mean, clipped.floor_area_light.mean);
+  EXPECT_LT(scaled.floor_area_light.mean, 0.95 * clipped.floor_area_light.mean);
+  EXPECT_GT(scaled.floor_below_horizon.mean, clipped.floor_below_horizon.mean);
   EXPECT_EQ(scaled.below_horizon.mean, clipped.below_horizon.mean);
 }
 

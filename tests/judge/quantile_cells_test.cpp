@@ -112,9 +112,10 @@ TEST(QuantileCells, DistanceIsThatOfMergedSteps) {
 TEST(QuantileCells, SoIsThatOfAnyNumberOfValues) {
   for (Example example : examples()) {
     for (const std::size_t kept : {1000, 512, 37, 1}) {
+      // Differences in single precision, each off by at most 2^-24 of values below 4.
       example.sorted.resize(kept);
       EXPECT_NEAR(cells_of(example).distance(example.sorted.data(), kept), merged_distance(example),
-                  1e-12)
+                  2e-7)
           << example.name << ", " << kept;
     }
   }
