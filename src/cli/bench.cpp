@@ -118,7 +118,8 @@ std::string report_text(const FrontierReport& report) {
 }
 
 std::optional<Table> table_of(const std::string& file, std::optional<ReadAs> layout) {
-  return file.empty() ? std::nullopt : std::optional<Table>(read_input(file, layout, FoldedLobes::refused));
+  return file.empty() ? std::nullopt
+                      : std::optional<Table>(read_input(file, layout, FoldedLobes::refused));
 }
 
 void require_grid(const Grid& grid, const std::optional<Table>& table,

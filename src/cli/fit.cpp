@@ -242,11 +242,10 @@ void show_as_in(const Arguments& arguments, const RunContext& run) {
     report.lobe = named([&] { return stored_entry(report.table, entry, run); });
   }
   if (!arguments.plot.empty())
-    render_lobe(
-        lobe_panels(report.lobe.lobe,
-                    {{is_folded(report.table) ? "folded LTC" : "LTC", report.lobe.ltc()}},
-                    picture_words(report)),
-        {})
+    render_lobe(lobe_panels(report.lobe.lobe,
+                            {{is_folded(report.table) ? "folded LTC" : "LTC", report.lobe.ltc()}},
+                            picture_words(report)),
+                {})
         .write_png(arguments.plot);
   print_results(
       arguments.json, [&] { return report_text(report); }, [&] { return report_json(report); });

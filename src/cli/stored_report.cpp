@@ -50,9 +50,10 @@ std::string nodes_text(const StoredReport& report) {
 
 // Of folded lobes alone.
 std::string fold_text(const StoredLobe& lobe) {
-  return lobe.creases.empty() ? ""
-                              : fmt::format("fold     k {:.6f}, g {:.6f}; creases {}\n", lobe.fold.k,
-                                            lobe.fold.g, fmt::join(lobe.creases, ", "));
+  return lobe.creases.empty()
+             ? ""
+             : fmt::format("fold     k {:.6f}, g {:.6f}; creases {}\n", lobe.fold.k, lobe.fold.g,
+                           fmt::join(lobe.creases, ", "));
 }
 
 // What the table costs beside an LTC of the lobe's own.

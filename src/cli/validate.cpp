@@ -48,11 +48,8 @@ void validate(const Arguments& arguments, Files& files) {
   const RunContext run{arguments.threads, &progress};
   if (!arguments.report.empty())
     files.write("--report", files.make_folder(arguments.report) / page_name);
-  Validation report{arguments.table,
-                    read_input(arguments.table, arguments.layout),
-                    {},
-                    std::nullopt,
-                    {}};
+  Validation report{
+      arguments.table, read_input(arguments.table, arguments.layout), {}, std::nullopt, {}};
   const ValidateSettings settings =
       load_validate_settings(arguments.config.path(), arguments.config.overrides,
                              settings_for(report.table), ConfigArguments::override_option);

@@ -86,7 +86,8 @@ void require_creases(const Creases& creases, const std::filesystem::path& file) 
     refuse_file(file, fmt::format("creases are [{}]; allowed: one to {} numbers of 0 to {}",
                                   fmt::join(creases, ", "), most_creases, most));
   if (std::ranges::adjacent_find(creases, std::greater_equal()) != creases.end())
-    refuse_file(file, fmt::format("creases are [{}]; they must increase", fmt::join(creases, ", ")));
+    refuse_file(file,
+                fmt::format("creases are [{}]; they must increase", fmt::join(creases, ", ")));
 }
 
 void require_consistent(const Table& table, const std::filesystem::path& file) {
@@ -101,12 +102,11 @@ void require_consistent(const Table& table, const std::filesystem::path& file) {
       const auto first = values.begin() + static_cast<std::ptrdiff_t>(count * i);
       if (!std::all_of(first, first + static_cast<std::ptrdiff_t>(count),
                        [](float value) { return std::isfinite(value); }))
-        refuse_file(
-            file,
-            fmt::format("{} of entry ({}) is not finite, yet its status is {}; only a "
-                        "skipped (0) or failed (4) entry has none",
-                        name, fmt::join(table.grid.indices(i), ", "),
-                        static_cast<int>(table.status[i])));
+        refuse_file(file,
+                    fmt::format("{} of entry ({}) is not finite, yet its status is {}; only a "
+                                "skipped (0) or failed (4) entry has none",
+                                name, fmt::join(table.grid.indices(i), ", "),
+                                static_cast<int>(table.status[i])));
     };
     require_finite("matrix", table.stored, 9);
     if (is_folded(table))

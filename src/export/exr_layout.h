@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// How a table's values lie in the three images, four of folded lobes: shared by exr_write.cpp and exr_read.cpp.
+// How a table's values lie in the three images, four of folded lobes: shared by exr_write.cpp and
+// exr_read.cpp.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ Table read_exr(const TableFiles& files, const ReadAs& as);
 
 namespace exr_layout {
 
-inline constexpr int version = 1;  // of ltc:format_version
+inline constexpr int version = 1;                                // of ltc:format_version
 inline constexpr std::size_t most_files = texels_per_entry + 1;  // of folded lobes
 inline constexpr std::size_t channels_per_file = channels_per_texel;
 inline constexpr std::array<const char*, channels_per_file> channel_names = {"R", "G", "B", "A"};

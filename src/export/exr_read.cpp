@@ -223,9 +223,9 @@ Table read_exr(const TableFiles& paths, const ReadAs&) {
                                      paths.front().string(), name_of(table.storage)));
   if (is_folded(table)) {
     const std::string first = paths.front().string();
-    read_file_into(table, texels_per_entry,
-                   first.substr(0, first.size() - folded_endings.front().size()) +
-                       folded_endings.back());
+    read_file_into(
+        table, texels_per_entry,
+        first.substr(0, first.size() - folded_endings.front().size()) + folded_endings.back());
     require_consistent(table, paths.front());
   }
   table.status.assign(table.grid.size(), Status::fitted);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Tables as three OpenEXR images, folded ones as four, each a 3-D texture laid out as an atlas: pixel x = phi + Nphi
-// lambda, y = theta + Ntheta alpha. docs/files.md says which channel holds what. Writing.
+// Tables as three OpenEXR images, folded ones as four, each a 3-D texture laid out as an atlas:
+// pixel x = phi + Nphi lambda, y = theta + Ntheta alpha. docs/files.md says which channel holds
+// what. Writing.
 #include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>

@@ -151,9 +151,8 @@ class Reader {
     const auto json = json_.find("creases");
     if (json == json_.end())
       return;
-    if (!json->is_array() || !std::all_of(json->begin(), json->end(), [](const Json& value) {
-          return value.is_number();
-        }))
+    if (!json->is_array() || !std::all_of(json->begin(), json->end(),
+                                          [](const Json& value) { return value.is_number(); }))
       refuse_file(file_, fmt::format("creases are {}; expected numbers", short_text(*json)));
     field.creases = json->get<Creases>();
     require_creases(field.creases, file_);

@@ -23,7 +23,7 @@ namespace {
 
 // The last two of folded lobes alone.
 constexpr std::array<std::string_view, 17> columns = {
-    "alpha_x", "alpha_y", "theta", "phi", "m00", "m01",       "m02",     "m10", "m11",
+    "alpha_x", "alpha_y", "theta", "phi", "m00",       "m01",     "m02", "m10", "m11",
     "m12",     "m20",     "m21",   "m22", "amplitude", "fresnel", "k",   "g"};
 
 std::size_t column_count(const std::vector<LookUp>& found) {

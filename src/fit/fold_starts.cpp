@@ -53,7 +53,8 @@ std::vector<Descent> fold_starts(const LobeFrame& frame, const FitResult& at_han
     const FieldVariables at(lobe, 0);
     const double kappa = first_kappa * (1 - at.lambda) * at.sin_theta * std::sin(lobe.phi_radians);
     for (const double sign : {-1.0, 1.0})
-      starts.push_back({starts.front().frame_matrix, bend_of(frame, fold_of(sign * kappa, 0, lobe, creases))});
+      starts.push_back(
+          {starts.front().frame_matrix, bend_of(frame, fold_of(sign * kappa, 0, lobe, creases))});
   }
   for (const FoldedStart& start : given) {
     const Eigen::Matrix3d p = admissible(frame.from_matrix(start.matrix), free_entries(lobe));

@@ -31,8 +31,7 @@ double LossMeter::loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matr
                        const Fold& fold, FitWorkspace& workspace) const {
   TargetQuantiles& quantiles = workspace.quantiles;
   quantiles.build(workspace.target, directions_, bins_, workspace.model.xi, workspace.model.bins);
-  const Eigen::Vector3d q =
-      frame_matrix * Eigen::Vector3d(0, frame.lobe.alpha_y * fold.k, fold.g);
+  const Eigen::Vector3d q = frame_matrix * Eigen::Vector3d(0, frame.lobe.alpha_y * fold.k, fold.g);
   FoldedModelValue value;
   evaluate_model({frame, frame_matrix, cosines_, quantiles, 1, quantiles.spread()}, {q, u_},
                  workspace.model, value);

@@ -66,10 +66,10 @@ EntryComparison compare_lobes(const Lobe& lobe, const LtcLobe& a, const LtcLobe&
   const PairJudgement judgement = judge.judge_pair(lobe, a, nearest_b);
   EntryComparison entry{judgement.loss_a, judgement.loss_b, judgement.spread, judgement.distance};
   if (both)
-    entry.matrix_difference = (a.matrix / a.matrix.col(2).norm() -
-                               nearest_b.matrix / nearest_b.matrix.col(2).norm())
-                                  .cwiseAbs()
-                                  .maxCoeff<Eigen::PropagateNaN>();
+    entry.matrix_difference =
+        (a.matrix / a.matrix.col(2).norm() - nearest_b.matrix / nearest_b.matrix.col(2).norm())
+            .cwiseAbs()
+            .maxCoeff<Eigen::PropagateNaN>();
   return entry;
 }
 
@@ -107,8 +107,7 @@ std::vector<EntryComparison> compare_tables(const Table& a, const Table& b,
       "compare", to_judge.size(), run, [&] { return prototype; },
       [&](std::size_t i, HeldOutJudge& judge) {
         const std::size_t flat = to_judge[i];
-        entries[flat] =
-            compare_lobes(a.grid.lobe(flat), a.ltc_at(flat), b.ltc_at(flat), judge);
+        entries[flat] = compare_lobes(a.grid.lobe(flat), a.ltc_at(flat), b.ltc_at(flat), judge);
       });
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
     entries[flat] = entries[first[flat]];

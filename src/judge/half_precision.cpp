@@ -35,9 +35,9 @@ std::vector<double> half_precision_errors(const Table& table, const std::vector<
       return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
     LtcLobe lobe = matrix_from_stored(table.storage, kept, frame.lobe);
     if (is_folded(table)) {
-      lobe.fold = fold_of(rounded(table.fold[2 * flat], Precision::half),
-                          rounded(table.fold[2 * flat + 1], Precision::half), frame.lobe,
-                          table.creases);
+      lobe.fold =
+          fold_of(rounded(table.fold[2 * flat], Precision::half),
+                  rounded(table.fold[2 * flat + 1], Precision::half), frame.lobe, table.creases);
       lobe.creases = table.creases;
     }
     return lobe;

@@ -233,8 +233,7 @@ class Checks {
     measurement.largest = whole_lobe;
     for (std::size_t flat = 0; flat < invertible_.size(); ++flat)
       if (invertible_[flat])
-        measurement.values[flat] =
-            share_below_horizon(table_.ltc_at(flat));
+        measurement.values[flat] = share_below_horizon(table_.ltc_at(flat));
     return judge(table_.grid, measurement);
   }
 

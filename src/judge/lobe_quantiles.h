@@ -33,8 +33,8 @@ class LobeQuantiles {
 
   std::size_t size() const { return directions_.size() * blocks_; }
 
-  // Fills `quantiles`, size() floats, with those of the GGX lobe; and of an LTC, folded or not, seen
-  // in that lobe's frame. Its M must be finite.
+  // Fills `quantiles`, size() floats, with those of the GGX lobe; and of an LTC, folded or not,
+  // seen in that lobe's frame. Its M must be finite.
   void of_ggx(const LobeFrame& frame, float* quantiles);
   void of_ltc(const LobeFrame& frame, const LtcLobe& ltc, float* quantiles);
 

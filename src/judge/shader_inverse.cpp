@@ -82,9 +82,8 @@ template <typename Scalar>
 Eigen::Matrix3d seen_in(Storage storage, const Eigen::Matrix3d& stored, const LobeFrame& frame,
                         InverseOrder order) {
   const bool scaled = storage != Storage::matrix, turned = is_in_mirror_frame(storage);
-  const Eigen::Vector3d scale =
-      scaled ? scale_of_columns(storage, frame.lobe)
-             : Eigen::Vector3d(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
+  const Eigen::Vector3d scale = scaled ? scale_of_columns(storage, frame.lobe)
+                                       : Eigen::Vector3d(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
   const Vector3<Scalar> roughness(rounded<Scalar>(scale.x()), rounded<Scalar>(scale.y()),
                                   Scalar(1));
   const Matrix3<Scalar> q = rounded<Scalar>(frame.rotation);
@@ -139,8 +138,7 @@ double InversionMeter::error(const LobeFrame& frame, const LtcLobe& exact, const
 
 std::vector<double> inversion_errors(
     const Table& table, const std::vector<bool>& judged, std::string_view stage,
-    const RunContext& run,
-    const std::function<LtcLobe(std::size_t, const LobeFrame&)>& seen) {
+    const RunContext& run, const std::function<LtcLobe(std::size_t, const LobeFrame&)>& seen) {
   constexpr std::size_t samples = 512, directions = 8;
   std::vector<double> errors(table.grid.size(), nan);
   parallel_for_each<InversionMeter>(

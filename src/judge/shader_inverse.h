@@ -37,10 +37,10 @@ constexpr EnumNames<InverseOrder, 3> enum_names(InverseOrder) {
 
 // The matrix whose inverse in all digits is what a shader has: M but for what storing S, forming M
 // and inverting it lose. `stored` is rounded to `memory` first; all that follows is in
-// `arithmetic`; with storage "inverse" nothing does. NaN where the shader has no inverse: an entry that overflows, a determinant of
-// zero, or a sign of the determinant that rounding turned, which puts the lobe's mirror image at
-// the opposite side. With `factored` and storage "matrix", S is put into the mirror's frame in
-// `arithmetic`.
+// `arithmetic`; with storage "inverse" nothing does. NaN where the shader has no inverse: an entry
+// that overflows, a determinant of zero, or a sign of the determinant that rounding turned, which
+// puts the lobe's mirror image at the opposite side. With `factored` and storage "matrix", S is put
+// into the mirror's frame in `arithmetic`.
 Eigen::Matrix3d seen_by_shader(Storage storage, const Eigen::Matrix3d& stored,
                                const LobeFrame& frame, InverseOrder order, Precision memory,
                                Precision arithmetic);
@@ -63,7 +63,6 @@ class InversionMeter {
 // that is seen there. The same bits for any number of threads. Throws Interrupted.
 std::vector<double> inversion_errors(
     const Table& table, const std::vector<bool>& judged, std::string_view stage,
-    const RunContext& run,
-    const std::function<LtcLobe(std::size_t, const LobeFrame&)>& seen);
+    const RunContext& run, const std::function<LtcLobe(std::size_t, const LobeFrame&)>& seen);
 
 }  // namespace ltc

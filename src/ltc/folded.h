@@ -71,8 +71,7 @@ class FoldedCosine {
   // finite, negative or not increasing, and a fold that is not one to one.
   FoldedCosine(const Eigen::Matrix3d& matrix, const Fold& fold,
                const Creases& creases = usual_creases);
-  explicit FoldedCosine(const LtcLobe& lobe)
-      : FoldedCosine(lobe.matrix, lobe.fold, lobe.creases) {}
+  explicit FoldedCosine(const LtcLobe& lobe) : FoldedCosine(lobe.matrix, lobe.fold, lobe.creases) {}
 
   // Density per steradian at a unit direction: max(z, 0)/(pi |p|^4 |det M| (1 - g H)) with p the
   // direction taken back, fold^-1(M^-1 omega), and H of the piece where that is.

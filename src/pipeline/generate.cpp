@@ -88,9 +88,8 @@ MemoryNeeded memory_needed(const Config& config, const std::vector<bool>& needed
     memory.refinement = field_fit_memory_bytes(config.field, config.refine.sampling);
   if (config.refine.steps == 0 || config.field.size > 0)
     return memory;
-  memory.refinement =
-      refinement_memory_bytes(config.grid, config.storage, values_behind(needed, context),
-                              config.refine);
+  memory.refinement = refinement_memory_bytes(config.grid, config.storage,
+                                              values_behind(needed, context), config.refine);
   return memory;
 }
 
@@ -244,8 +243,8 @@ std::size_t first_of_same(const Table& table, std::size_t flat) {
   return table.grid.flat(node);
 }
 
-// Each node that is chosen fitted by itself, from the values that it has; but of the smoothest, which
-// a field is not made for.
+// Each node that is chosen fitted by itself, from the values that it has; but of the smoothest,
+// which a field is not made for.
 void fit_folded_nodes(const FitSettings& settings, const std::vector<bool>& chosen,
                       const RunContext& run, Table& table) {
   const std::unique_ptr<Solver> solver = make_solver(settings);
@@ -268,8 +267,8 @@ void fit_folded_nodes(const FitSettings& settings, const std::vector<bool>& chos
           return;
         const FitResult result = fit(flat, *workspace);
         const Lobe lobe = table.grid.lobe(flat);
-        table.set_stored(flat, normalise(table.storage, stored_from_matrix(
-                                                            table.storage, result.matrix, lobe)));
+        table.set_stored(
+            flat, normalise(table.storage, stored_from_matrix(table.storage, result.matrix, lobe)));
         table.fold[2 * flat] = static_cast<float>(kappa_of(result.fold, lobe));
         table.fold[2 * flat + 1] = static_cast<float>(result.fold.g);
         table.sw_loss[flat] = static_cast<float>(result.loss);

@@ -135,9 +135,10 @@ void fit_albedo(const std::vector<Lobe>& lobes, const std::vector<FieldTerm>& po
       });
   for (const Field& part : parts) {
     // Before those of a fold, which come last.
-    const auto place = std::ranges::find_if(
-                           field.terms, [](const FieldTerm& term) { return is_of_fold(term.part); }) -
-                       field.terms.begin();
+    const auto place =
+        std::ranges::find_if(field.terms,
+                             [](const FieldTerm& term) { return is_of_fold(term.part); }) -
+        field.terms.begin();
     field.terms.insert(field.terms.begin() + place, part.terms.begin(), part.terms.end());
     field.coefficients.insert(field.coefficients.begin() + place, part.coefficients.begin(),
                               part.coefficients.end());

@@ -378,7 +378,8 @@ Field fit_field(double alpha_min, const LobeModel& model, const std::vector<Quer
       queries_held_out(alpha_min, model, asked, judging, lobes.lobes.size());
   const auto size = static_cast<std::size_t>(settings.size);
   const Creases& creases = settings.creases;
-  const std::vector<FieldTerm> pool = matrix_pool_of_size(pool_size(size), !settings.creases.empty());
+  const std::vector<FieldTerm> pool =
+      matrix_pool_of_size(pool_size(size), !settings.creases.empty());
   result.queries = lobes.lobes.size();
   result.pool = pool.size();
   Field field{alpha_min, &model, {}, creases, {}, {}};

@@ -12,8 +12,8 @@
 namespace ltc {
 namespace {
 
-// X S X with X the swap of x and y, row-major; of folded nodes at lambda = 1, which have no fold, the
-// rest stays.
+// X S X with X the swap of x and y, row-major; of folded nodes at lambda = 1, which have no fold,
+// the rest stays.
 template <typename Vector>
 Vector swapped(const Vector& value) {
   Vector result = value;
@@ -126,7 +126,7 @@ void NodeSpace::project_fold(NodeVectorsOf<FoldedNode>& step) const {
 
 template <typename Node>
 void NodeSpace::project(const std::vector<Node>& stored, NodeVectorsOf<Node>& step) const {
-  if constexpr (numbers_of<Node> > 9)
+  if constexpr (numbers_of < Node >> 9)
     project_fold(step);
   for (std::size_t flat = 0; flat < step.size(); ++flat) {
     NodeVector<Node>& value = step[flat];

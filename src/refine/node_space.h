@@ -80,8 +80,8 @@ class NodeSpace {
   void project_fold(NodeVectorsOf<FoldedNode>& step) const;
 
   Storage storage_;
-  std::vector<std::vector<Image>> orbits_;  // of more than one image
-  std::vector<FreeEntries> free_;           // none of a node that is not movable
+  std::vector<std::vector<Image>> orbits_;      // of more than one image
+  std::vector<FreeEntries> free_;               // none of a node that is not movable
   std::vector<std::array<bool, 2>> free_fold_;  // kappa and gamma
 };
 

@@ -106,7 +106,7 @@ QuerySystemOf<Node>::QuerySystemOf(const TableNodes& nodes, const WeightedLobes&
                                    const QuerySampling& sampling, double shift,
                                    const RunContext& run)
     : storage_(nodes.storage), node_count_(nodes.grid.size()), meter_(sampling, shift) {
-  if (numbers_of<Node> > 9)
+  if (numbers_of < Node >> 9)
     meter_.set_creases(nodes.creases);
   const Reduction reduction(nodes.grid);
   const std::vector<std::size_t> order = ordered_by_cell(nodes, asked.lobes, reduction, run);
@@ -145,8 +145,7 @@ void QuerySystemOf<Node>::evaluate_query(std::size_t q, const Node& interpolated
     model.loss = share * value.loss;
     model.gradient.noalias() = share * (to_frame.transpose() * value.gradient);
     // Symmetric on paper, and but for the rounding of the kernel's products.
-    const NodeMatrix<Node> curvature =
-        share * (to_frame.transpose() * value.curvature * to_frame);
+    const NodeMatrix<Node> curvature = share * (to_frame.transpose() * value.curvature * to_frame);
     model.curvature = 0.5 * (curvature + curvature.transpose());
   };
   if constexpr (numbers_of<Node> == 9) {
@@ -189,8 +188,8 @@ double QuerySystemOf<Node>::evaluate(const std::vector<Node>& stored, const RunC
 
 template <typename Node>
 template <typename Value, typename Part>
-void QuerySystemOf<Node>::gather(std::vector<Value>& result, const RunContext& run, const Value& zero,
-                         Part&& part) const {
+void QuerySystemOf<Node>::gather(std::vector<Value>& result, const RunContext& run,
+                                 const Value& zero, Part&& part) const {
   result.assign(node_count_, zero);
   parallel_for(node_count_, run, [&](std::size_t node) {
     for (const Corner& at : corners_of_node_[node]) {

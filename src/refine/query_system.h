@@ -36,7 +36,7 @@ class QuerySystemOf {
   // those that need a node without values are left out. Systems of different `shift` in [0, 1)
   // share no samples.
   QuerySystemOf(const TableNodes& nodes, const WeightedLobes& asked, const QuerySampling& sampling,
-              double shift, const RunContext& run = {});
+                double shift, const RunContext& run = {});
 
   // What so many queries in so many cells need, about, and while they are multiplied with.
   static std::size_t memory_bytes(const QuerySampling& sampling, std::size_t queries,
@@ -52,7 +52,8 @@ class QuerySystemOf {
   // Throw Interrupted too. Of the model in use: gradient, curvature times a step, the curvature's
   // blocks on the diagonal. Sums have a fixed order: the same bits for any number of threads.
   void gradient(NodeVectorsOf<Node>& result, const RunContext& run = {}) const;
-  void multiply(const NodeVectorsOf<Node>& step, NodeVectorsOf<Node>& result, const RunContext& run = {}) const;
+  void multiply(const NodeVectorsOf<Node>& step, NodeVectorsOf<Node>& result,
+                const RunContext& run = {}) const;
   void diagonal_blocks(std::vector<NodeMatrix<Node>>& blocks, const RunContext& run = {}) const;
 
  private:

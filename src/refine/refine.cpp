@@ -35,10 +35,10 @@ std::vector<SingularityBound> bounds_at(const TableNodes& nodes, const std::vect
   std::vector<SingularityBound> bounds;
   for (std::size_t flat = 0; flat < stored.size(); ++flat) {
     const Eigen::Matrix3d matrix = matrix_of(stored[flat]);
-    const Eigen::Vector3d scale = matrix_from_stored(nodes.storage, Eigen::Matrix3d::Identity(),
-                                                     nodes.grid.lobe(flat))
-                                      .colwise()
-                                      .norm();
+    const Eigen::Vector3d scale =
+        matrix_from_stored(nodes.storage, Eigen::Matrix3d::Identity(), nodes.grid.lobe(flat))
+            .colwise()
+            .norm();
     bounds.push_back({least_determinant_share * matrix.determinant(),
                       std::min(least_solid_angle, solid_angle_of_columns(matrix)),
                       std::max(most_condition, frobenius_condition(matrix * scale.asDiagonal())),

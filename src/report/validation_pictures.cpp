@@ -182,8 +182,10 @@ std::vector<NamedPicture> lobe_pictures(const Validation& validation, std::size_
   parallel_for_each("draw lobes", to_draw.size(), run, [&](std::size_t i) {
     const LobeToDraw& lobe = to_draw[i];
     picture::Words words{lobe.title, lobe_caption(lobe.lobe), {lobe.words}};
-    canvases[i] = render_lobe(lobe_panels(lobe.lobe, {{lobe.ltc.creases.empty() ? "LTC" : "folded LTC", lobe.ltc}}, words, lobe_side),
-                              picture::Chart{}, lobe_width);
+    canvases[i] = render_lobe(
+        lobe_panels(lobe.lobe, {{lobe.ltc.creases.empty() ? "LTC" : "folded LTC", lobe.ltc}}, words,
+                    lobe_side),
+        picture::Chart{}, lobe_width);
   });
   std::vector<NamedPicture> pictures;
   for (std::size_t i = 0; i < to_draw.size(); ++i)
