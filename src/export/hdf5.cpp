@@ -62,26 +62,16 @@ void write_axes(Hdf5Output& file, const Grid& grid) {
   }
 }
 
-std::vector<std::size_t> entry_shape(const Grid& grid) {
+// With the shape of one entry's values, none of a single one.
+std::vector<std::size_t> entry_shape(const Grid& grid, std::vector<std::size_t> of_entry = {}) {
   const auto shape = grid.shape();
-  return {shape.begin(), shape.end()};
-}
-
-std::vector<std::size_t> matrix_shape(const Grid& grid) {
-  std::vector<std::size_t> shape = entry_shape(grid);
-  shape.insert(shape.end(), {3, 3});
-  return shape;
-}
-
-std::vector<std::size_t> fold_shape(const Grid& grid) {
-  std::vector<std::size_t> shape = entry_shape(grid);
-  shape.push_back(2);
-  return shape;
+  of_entry.insert(of_entry.begin(), shape.begin(), shape.end());
+  return of_entry;
 }
 
 void write_entries(Hdf5Output& file, const Table& table) {
   const std::vector<std::size_t> shape = entry_shape(table.grid);
-  file.values<float>("matrix", matrix_shape(table.grid), table.stored);
+  file.values<float>("matrix", entry_shape(table.grid, {3, 3}), table.stored);
   file.values<float>("amplitude", shape, table.amplitude);
   file.values<float>("fresnel", shape, table.fresnel);
   file.values<float>("sw_loss", shape, table.sw_loss);
@@ -92,7 +82,7 @@ void write_entries(Hdf5Output& file, const Table& table) {
   file.values<std::uint16_t>("iterations", shape, table.iterations);
   if (!is_folded(table))
     return;
-  file.values<float>("fold", fold_shape(table.grid), table.fold);
+  file.values<float>("fold", entry_shape(table.grid, {2}), table.fold);
   file.values<double>("creases", {table.creases.size()}, table.creases);
 }
 
@@ -191,7 +181,7 @@ std::vector<Status> read_status(const Hdf5Input& file, const fs::path& path,
 
 void read_entries(const Hdf5Input& file, const fs::path& path, Table& table) {
   const std::vector<std::size_t> shape = entry_shape(table.grid);
-  table.stored = file.values<float>("matrix", matrix_shape(table.grid));
+  table.stored = file.values<float>("matrix", entry_shape(table.grid, {3, 3}));
   table.amplitude = file.values<float>("amplitude", shape);
   table.fresnel = file.values<float>("fresnel", shape);
   table.sw_loss = file.values<float>("sw_loss", shape);
@@ -199,7 +189,7 @@ void read_entries(const Hdf5Input& file, const fs::path& path, Table& table) {
   table.iterations = file.values<std::uint16_t>("iterations", shape);
   if (!is_folded(table))
     return;
-  table.fold = file.values<float>("fold", fold_shape(table.grid));
+  table.fold = file.values<float>("fold", entry_shape(table.grid, {2}));
   const std::vector<std::size_t> creases = file.shape("creases");
   if (creases.size() != 1 || creases[0] < 1 || creases[0] > most_creases)
     throw InputError(fmt::format("{}: dataset creases must be a list of 1 to {} numbers",

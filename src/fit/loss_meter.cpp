@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "fit/loss_meter.h"
 
+#include "fit/fold_starts.h"
+
 namespace ltc {
 
 LossMeter::LossMeter(std::size_t bins, const Creases& creases)
@@ -31,10 +33,9 @@ double LossMeter::loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matr
                        const Fold& fold, FitWorkspace& workspace) const {
   TargetQuantiles& quantiles = workspace.quantiles;
   quantiles.build(workspace.target, directions_, bins_, workspace.model.xi, workspace.model.bins);
-  const Eigen::Vector3d q = frame_matrix * Eigen::Vector3d(0, frame.lobe.alpha_y * fold.k, fold.g);
   FoldedModelValue value;
-  evaluate_model({frame, frame_matrix, cosines_, quantiles, 1, quantiles.spread()}, {q, u_},
-                 workspace.model, value);
+  evaluate_model({frame, frame_matrix, cosines_, quantiles, 1, quantiles.spread()},
+                 {column_of(frame_matrix, bend_of(frame, fold)), u_}, workspace.model, value);
   return value.loss;
 }
 

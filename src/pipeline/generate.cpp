@@ -267,10 +267,10 @@ void fit_folded_nodes(const FitSettings& settings, const std::vector<bool>& chos
           return;
         const FitResult result = fit(flat, *workspace);
         const Lobe lobe = table.grid.lobe(flat);
-        table.set_stored(
-            flat, normalise(table.storage, stored_from_matrix(table.storage, result.matrix, lobe)));
-        table.fold[2 * flat] = static_cast<float>(kappa_of(result.fold, lobe));
-        table.fold[2 * flat + 1] = static_cast<float>(result.fold.g);
+        FoldedNode node;
+        node << flattened(stored_from_matrix(table.storage, result.matrix, lobe)),
+            kappa_of(result.fold, lobe), result.fold.g;
+        set_node(node, flat, table);
         table.sw_loss[flat] = static_cast<float>(result.loss);
         table.iterations[flat] = static_cast<std::uint16_t>(result.steps);
       });

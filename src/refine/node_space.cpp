@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fit/fold_starts.h"
 #include "table/symmetry.h"
 
 namespace ltc {
@@ -90,8 +91,8 @@ NodeSpace::NodeSpace(const Grid& grid, Storage storage, const std::vector<bool>&
   for (std::size_t flat = 0; flat < grid.size(); ++flat) {
     const NodeIndex node = grid.node(flat);
     const bool folds = !frozen[flat] && grid.lambda.nodes[node.lambda] != 1;
-    free_fold_[flat] = {
-        folds && !looks_along_x(grid.theta.nodes[node.theta], grid.phi.nodes[node.phi]), folds};
+    if (folds)
+      free_fold_[flat] = free_fold(grid.lobe(flat));
   }
   if (storage != Storage::inverse)
     return;
@@ -126,7 +127,7 @@ void NodeSpace::project_fold(NodeVectorsOf<FoldedNode>& step) const {
 
 template <typename Node>
 void NodeSpace::project(const std::vector<Node>& stored, NodeVectorsOf<Node>& step) const {
-  if constexpr (numbers_of < Node >> 9)
+  if constexpr (is_folded_node<Node>)
     project_fold(step);
   for (std::size_t flat = 0; flat < step.size(); ++flat) {
     NodeVector<Node>& value = step[flat];

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "fit/quantile_model.h"
@@ -20,6 +21,8 @@ using FoldedNode = Eigen::Matrix<double, 11, 1>;
 // The numbers of it, and of a step, S row-major first.
 template <typename Node>
 inline constexpr int numbers_of = Node::SizeAtCompileTime;
+template <typename Node>
+inline constexpr bool is_folded_node = std::is_same_v<Node, FoldedNode>;
 template <typename Node>
 using NodeVector = Eigen::Matrix<double, numbers_of<Node>, 1>;
 template <typename Node>
@@ -39,10 +42,10 @@ inline const FoldedNode& flattened(const FoldedNode& node) {
 }
 template <typename Node>
 Node node_of(const NodeVector<Node>& numbers) {
-  if constexpr (numbers_of<Node> == 9)
-    return unflattened(numbers);
-  else
+  if constexpr (is_folded_node<Node>)
     return numbers;
+  else
+    return unflattened(numbers);
 }
 
 // What a step must leave as it is:

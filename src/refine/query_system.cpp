@@ -21,11 +21,10 @@ struct FrameOfStored {
 FrameOfStored frame_of_stored(Storage storage, const LobeFrame& frame,
                               const Eigen::Matrix3d& stored) {
   Eigen::Matrix3d left = Eigen::Matrix3d::Identity(), right = Eigen::Matrix3d::Identity();
-  if (!is_in_mirror_frame(storage))
+  if (storage != Storage::mirror_frame)
     left = frame.rotation.transpose();
-  const Eigen::Vector3d scale = scale_of_columns(storage, frame.lobe);
-  if (storage != Storage::roughness_scaled && storage != Storage::mirror_frame)
-    right.diagonal() << scale.x() / frame.lobe.alpha_x, scale.y() / frame.lobe.alpha_y, 1;
+  if (storage == Storage::matrix || storage == Storage::inverse)
+    right.diagonal() << 1 / frame.lobe.alpha_x, 1 / frame.lobe.alpha_y, 1;
   if (storage != Storage::inverse)
     return {left * stored * right, left, right};
   // d(S^-1) = -S^-1 dS S^-1. The loss does not feel a factor, which is left out of what changes.
@@ -45,28 +44,19 @@ Matrix9 jacobian(const FrameOfStored& map) {
   return result;
 }
 
-// (P q) of a folded node, and how it changes with the node's eleven numbers.
+// P and the bend of a folded node, and what they change by with each of its numbers.
 struct FoldedFrame {
   Eigen::Matrix3d p;
-  Eigen::Vector3d q;
-  Eigen::Matrix<double, 12, 11> jacobian;
+  Bend bend;
+  FoldedNode scale;
 };
 FoldedFrame frame_of_folded(const LobeFrame& frame, const FoldedNode& node) {
-  const Eigen::Matrix3d s = matrix_of(node);
-  const double alpha_2 = frame.lobe.alpha_x * frame.lobe.alpha_x;
-  const Eigen::Vector3d scale(1, width_across(frame.lobe) / frame.lobe.alpha_y, 1);
-  const Eigen::Vector3d bend(0, alpha_2 * node[9], node[10]);
-  FoldedFrame result{s * scale.asDiagonal(), s * bend, {}};
-  result.jacobian.setZero();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      result.jacobian(4 * row + column, 3 * row + column) = scale[column];
-      result.jacobian(4 * row + 3, 3 * row + column) = bend[column];
-    }
-    result.jacobian(4 * row + 3, 9) = alpha_2 * s(row, 1);
-    result.jacobian(4 * row + 3, 10) = s(row, 2);
-  }
-  return result;
+  const Eigen::Vector3d of_columns(1, width_across(frame.lobe) / frame.lobe.alpha_y, 1);
+  const double of_kappa = frame.lobe.alpha_x * frame.lobe.alpha_x / of_columns.y();
+  FoldedNode scale;
+  scale << of_columns, of_columns, of_columns, of_kappa, 1;
+  const FoldedNode scaled = scale.cwiseProduct(node);
+  return {matrix_of(scaled), scaled.tail<2>(), scale};
 }
 
 bool complete(const Interpolation& corners, const std::vector<bool>& has_values) {
@@ -106,7 +96,7 @@ QuerySystemOf<Node>::QuerySystemOf(const TableNodes& nodes, const WeightedLobes&
                                    const QuerySampling& sampling, double shift,
                                    const RunContext& run)
     : storage_(nodes.storage), node_count_(nodes.grid.size()), meter_(sampling, shift) {
-  if (numbers_of < Node >> 9)
+  if (is_folded_node<Node>)
     meter_.set_creases(nodes.creases);
   const Reduction reduction(nodes.grid);
   const std::vector<std::size_t> order = ordered_by_cell(nodes, asked.lobes, reduction, run);
@@ -148,7 +138,7 @@ void QuerySystemOf<Node>::evaluate_query(std::size_t q, const Node& interpolated
     const NodeMatrix<Node> curvature = share * (to_frame.transpose() * value.curvature * to_frame);
     model.curvature = 0.5 * (curvature + curvature.transpose());
   };
-  if constexpr (numbers_of<Node> == 9) {
+  if constexpr (!is_folded_node<Node>) {
     const FrameOfStored map = frame_of_stored(storage_, frame, interpolated);
     if (!map.p.allFinite()) {
       model.loss = std::numeric_limits<double>::infinity();
@@ -160,8 +150,8 @@ void QuerySystemOf<Node>::evaluate_query(std::size_t q, const Node& interpolated
   } else {
     const FoldedFrame map = frame_of_folded(frame, interpolated);
     FoldedModelValue value;
-    meter_.measure(frame, q, map.p, map.q, expected, buffers, value);
-    set_model(value, map.jacobian);
+    meter_.measure(frame, q, map.p, column_of(map.p, map.bend), expected, buffers, value);
+    set_model(bent(value, map.p, map.bend), NodeMatrix<Node>(map.scale.asDiagonal()));
   }
 }
 
