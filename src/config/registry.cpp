@@ -93,6 +93,7 @@ std::vector<Key> fit_keys() {
 std::vector<Key> refine_keys() {
   return {
       key("refine.steps", [](Draft& d) { return &d.config.refine.steps; }, {0, 1000}, "most outer steps; 0 for no refinement"),
+      key("refine.start", [](Draft& d) { return &d.config.refine.start; }, "what refinement begins with"),
       key("refine.queries_per_cell", [](Draft& d) { return &d.config.refine.queries_per_cell; }, {1, 1000}, "queries refined on, for each cell of the table"),
       key("refine.table_share", [](Draft& d) { return &d.config.refine.table_share; }, {0, 1}, "share of the queries that are uniform in the table's own axes"),
       key("refine.node_weight", [](Draft& d) { return &d.config.refine.node_weight; }, {0, 1}, "share of the objective that the nodes' own lobes have"),
@@ -101,7 +102,9 @@ std::vector<Key> refine_keys() {
       key("refine.overshoot", [](Draft& d) { return &d.config.refine.overshoot; }, above(0, 1.9), "steps are taken this many times as long as the model says"),
       key("refine.tolerance", [](Draft& d) { return &d.config.refine.tolerance; }, {0, 1}, "ends when a step gains less than this share of the loss"),
       key("refine.keep_smoothest", [](Draft& d) { return &d.config.refine.keep_smoothest; }, "leave the nodes with alpha <= alpha_min as they are"),
-      key("refine.samples", [](Draft& d) { return &d.config.refine.sampling.samples; }, {64, 65536}, "cosine samples a query"),
+      key("refine.loss", [](Draft& d) { return &d.config.refine.sampling.loss; }, "how the distribution of a query's LTC is found"),
+      key("refine.thresholds", [](Draft& d) { return &d.config.refine.sampling.thresholds; }, {4, 256}, "where along a direction distributions are compared, by arcs"),
+      key("refine.samples", [](Draft& d) { return &d.config.refine.sampling.samples; }, {64, 65536}, "cosine samples a query, where it is measured on samples"),
       key("refine.directions", [](Draft& d) { return &d.config.refine.sampling.directions; }, {4, 4096}, "projection directions a query"),
       key("refine.target_samples", [](Draft& d) { return &d.config.refine.sampling.target_samples; }, {64, 1048576}, "GGX samples a query"),
       key("refine.roughness_first", [](Draft& d) { return &d.config.refine.range.roughness_first; }, {0, 1}, "least perceptual roughness asked for, where no scene says"),

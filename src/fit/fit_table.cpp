@@ -18,25 +18,6 @@
 namespace ltc {
 namespace {
 
-// Seen from above, an isotropic lobe is round; its fit is but for the noise of its samples.
-Eigen::Matrix3d rounded_to_symmetry(const Lobe& lobe, Eigen::Matrix3d matrix) {
-  if (lobe.alpha_x == lobe.alpha_y && looks_upward(lobe.theta_radians))
-    matrix(0, 0) = matrix(1, 1) = (matrix(0, 0) + matrix(1, 1)) / 2;
-  return matrix;
-}
-
-void copy_by_symmetry(const std::vector<PlannedEntry>& plan, const RunContext& run,
-                      std::vector<FittedEntry>& entries) {
-  parallel_for(plan.size(), run, [&](std::size_t flat) {
-    const std::size_t representative = plan[flat].representative;
-    if (representative == flat || representative == PlannedEntry::none)
-      return;
-    const FittedEntry& source = entries[representative];
-    entries[flat] = {turned(source.matrix, plan[flat].turn_radians), source.loss, 0,
-                     has_values(source.status) ? Status::copied : source.status};
-  });
-}
-
 // Takes the results that the journal knows; what is left to be fitted.
 std::vector<std::size_t> recall_known(const FitJournal* journal, int round,
                                       const std::vector<std::size_t>& to_fit,
@@ -68,6 +49,24 @@ std::vector<FitStep>* trace_of(FitWatch* watch, std::size_t flat) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d rounded_to_symmetry(const Lobe& lobe, Eigen::Matrix3d matrix) {
+  if (lobe.alpha_x == lobe.alpha_y && looks_upward(lobe.theta_radians))
+    matrix(0, 0) = matrix(1, 1) = (matrix(0, 0) + matrix(1, 1)) / 2;
+  return matrix;
+}
+
+void copy_by_symmetry(const std::vector<PlannedEntry>& plan, const RunContext& run,
+                      std::vector<FittedEntry>& entries) {
+  parallel_for(plan.size(), run, [&](std::size_t flat) {
+    const std::size_t representative = plan[flat].representative;
+    if (representative == flat || representative == PlannedEntry::none)
+      return;
+    const FittedEntry& source = entries[representative];
+    entries[flat] = {turned(source.matrix, plan[flat].turn_radians), source.loss, 0,
+                     has_values(source.status) ? Status::copied : source.status};
+  });
+}
 
 FitResult fit_entry(const Solver& solver, const FitRequest& request, FitWorkspace& workspace,
                     std::vector<FitStep>* trace, FittedEntry& entry) {

@@ -53,6 +53,13 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
                                    const std::vector<bool>& needed, const RunContext& run,
                                    FitWatch* watch = nullptr, FitJournal* journal = nullptr);
 
+// Seen from above, an isotropic lobe is round; its fit is but for the noise of its samples.
+Eigen::Matrix3d rounded_to_symmetry(const Lobe& lobe, Eigen::Matrix3d matrix);
+
+// Gives every entry that has another one as its representative that one's matrix, turned.
+void copy_by_symmetry(const std::vector<PlannedEntry>& plan, const RunContext& run,
+                      std::vector<FittedEntry>& entries);
+
 // How many sweeps the settings ask for: none but with the solver that has them.
 int sweep_count(const FitSettings& settings);
 

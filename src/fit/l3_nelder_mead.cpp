@@ -15,9 +15,6 @@ namespace {
 
 constexpr double first_simplex = 0.1;
 
-// Of the meter of a result's loss: twice those of a table's nodes.
-constexpr std::size_t loss_bins = 128;
-
 // The free entries of P as a vector, and back.
 class FreeVariables {
  public:
@@ -115,8 +112,7 @@ SimplexSearch search_by_simplex(const LobeFrame& frame, const Eigen::Matrix3d& s
 L3NelderMeadSolver::L3NelderMeadSolver(const L3Settings& settings)
     : settings_(settings),
       cosines_(make_cosine_set(static_cast<std::size_t>(settings.samples))),
-      lattice_(make_target_lattice(static_cast<std::size_t>(settings.samples), 0.3)),
-      meter_(loss_bins) {}
+      lattice_(make_target_lattice(static_cast<std::size_t>(settings.samples), 0.3)) {}
 
 FitResult L3NelderMeadSolver::fit(const FitRequest& request, FitWorkspace& workspace,
                                   std::vector<FitStep>* trace) const {

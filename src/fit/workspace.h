@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/aligned.h"
+#include "fit/arc_model.h"
 #include "fit/quantile_model.h"
 #include "fit/sample_sets.h"
 #include "fit/solver.h"
@@ -14,6 +15,8 @@ struct FitWorkspace {
   TargetSamples target;
   TargetQuantiles quantiles;
   ModelWorkspace model;
+  ArcTarget arc_target;
+  ArcWorkspace arcs;
   // Of the stochastic descent.
   TargetLattice lattice;
   AlignedFloats cosine_x, cosine_y, cosine_z, sorted_target, sorted_projections;

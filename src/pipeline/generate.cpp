@@ -18,6 +18,7 @@
 #include "core/version.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
+#include "fit/start_table.h"
 #include "pipeline/post_process.h"
 #include "postprocess/normalise.h"
 #include "refine/refine_queries.h"
@@ -283,6 +284,12 @@ void fit_folded_nodes(const FitSettings& settings, const std::vector<bool>& chos
     }
 }
 
+// Whether refinement begins with matrices in closed form.
+bool starts_in_closed_form(const Config& config) {
+  return config.refine.steps > 0 && config.refine.start == RefineStart::closed_form &&
+         config.fit.solver == SolverKind::gauss_newton;
+}
+
 void describe(const Config& config, Table& table) {
   table.seed = config.fit.seed;
   table.config = to_toml(config);
@@ -380,8 +387,10 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     result.fits = lobes;
     result.fits_of_whole_grid = EqualLobes(config.grid).count();
     std::vector<FittedEntry> entries =
-        fit_table(config.grid, config.fit, plan, run, nullptr, journal);
-    finish_stage("fit");
+        starts_in_closed_form(config)
+            ? start_table(config.grid, plan, run)
+            : fit_table(config.grid, config.fit, plan, run, nullptr, journal);
+    finish_stage(starts_in_closed_form(config) ? "start" : "fit");
     align_all(entries, run);
     finish_stage("align");
     post_process_all(config.grid, entries, table, run, result);

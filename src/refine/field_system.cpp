@@ -26,9 +26,7 @@ constexpr int start_rounds = 4;
 
 FieldSystem::FieldSystem(const WeightedLobes& asked, double alpha_min, const Creases& creases,
                          const QuerySampling& sampling, double shift)
-    : creases_(creases), meter_(sampling, shift) {
-  if (!creases.empty())
-    meter_.set_creases(creases);
+    : creases_(creases), meter_(sampling, shift, creases) {
   queries_.reserve(asked.lobes.size());
   for (std::size_t i = 0; i < asked.lobes.size(); ++i) {
     const FieldVariables at(fold(asked.lobes[i]).lobe, alpha_min);
@@ -201,11 +199,12 @@ Eigen::VectorXd FieldSystem::nearest_to(const std::vector<Eigen::Matrix3d>& fitt
       [&](std::size_t q, QueryMeter::Buffers& buffers) {
         const Query& query = queries_[q];
         const LobeFrame frame(query.at.lobe);
-        const double share = query.weight / meter_.see(frame, q, targets_[q], buffers);
+        const double spread = meter_.see(frame, q, targets_[q], buffers);
+        const double share = query.weight / spread;
         Eigen::Matrix3d p = frame.from_matrix(fitted[q]);
         p *= query.constant[8] / p(2, 2);
         ModelValue value;
-        meter_.measure(frame, q, p, start_smoothing * buffers.quantiles.spread(), buffers, value);
+        meter_.measure(frame, q, p, start_smoothing * spread, buffers, value);
         meter_.measure(frame, q, p, start_smoothing * value.loss, buffers, value);
         const Vector9 wanted = flattened(p) - query.constant;
         const Vector9 bent = value.curvature * wanted;

@@ -93,7 +93,7 @@ class FieldSystem {
   Creases creases_;
   QueryMeter meter_;
   std::vector<Query> queries_;
-  std::vector<BinnedTarget> targets_;
+  std::vector<QueryTarget> targets_;
   std::vector<Model> models_, evaluated_;
   std::array<Eigen::MatrixXf, parts> rows_;      // phi, a row a query
   std::array<Eigen::Index, parts + 1> first_{};  // of each part's coefficients

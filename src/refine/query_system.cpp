@@ -44,6 +44,15 @@ Matrix9 jacobian(const FrameOfStored& map) {
   return result;
 }
 
+// Of a storage that is linear in M, which spares P and its Jacobian.
+ArcPoint point_of_stored(Storage storage, const LobeFrame& frame, const Eigen::Matrix3d& stored) {
+  const Eigen::Vector3d scale = scale_of_columns(storage, frame.lobe);
+  ArcPoint point{frame, stored * scale.asDiagonal(), scale};
+  if (!is_in_mirror_frame(storage))
+    point.turn = frame.rotation;
+  return point;
+}
+
 // P and the bend of a folded node, and what they change by with each of its numbers.
 struct FoldedFrame {
   Eigen::Matrix3d p;
@@ -95,9 +104,9 @@ template <typename Node>
 QuerySystemOf<Node>::QuerySystemOf(const TableNodes& nodes, const WeightedLobes& asked,
                                    const QuerySampling& sampling, double shift,
                                    const RunContext& run)
-    : storage_(nodes.storage), node_count_(nodes.grid.size()), meter_(sampling, shift) {
-  if (is_folded_node<Node>)
-    meter_.set_creases(nodes.creases);
+    : storage_(nodes.storage),
+      node_count_(nodes.grid.size()),
+      meter_(sampling, shift, is_folded_node<Node> ? nodes.creases : Creases{}) {
   const Reduction reduction(nodes.grid);
   const std::vector<std::size_t> order = ordered_by_cell(nodes, asked.lobes, reduction, run);
   corners_of_node_.resize(node_count_);
@@ -114,6 +123,9 @@ QuerySystemOf<Node>::QuerySystemOf(const TableNodes& nodes, const WeightedLobes&
     queries_.push_back({folded, corners.weights, asked.weights[i]});
     cells_.back().last = queries_.size();
   }
+  for (const Query& query : queries_)
+    for (const double weight : query.weights)
+      weights_.push_back(static_cast<float>(weight));
   models_.resize(queries_.size());
   evaluated_.resize(queries_.size());
   targets_.resize(queries_.size());
@@ -131,27 +143,41 @@ void QuerySystemOf<Node>::evaluate_query(std::size_t q, const Node& interpolated
     model.loss = std::numeric_limits<double>::infinity();
     return;
   }
-  const auto set_model = [&](const auto& value, const auto& to_frame) {
-    model.loss = share * value.loss;
-    model.gradient.noalias() = share * (to_frame.transpose() * value.gradient);
-    // Symmetric on paper, and but for the rounding of the kernel's products.
-    const NodeMatrix<Node> curvature = share * (to_frame.transpose() * value.curvature * to_frame);
-    model.curvature = 0.5 * (curvature + curvature.transpose());
+  // Symmetric on paper, and but for the rounding of products.
+  const auto set_model = [&](double loss, const NodeVector<Node>& gradient,
+                             const NodeMatrix<Node>& curvature) {
+    model.loss = std::isfinite(loss) ? share * loss : std::numeric_limits<double>::infinity();
+    model.gradient = share * gradient;
+    model.curvature.fill(0);
+    for (Eigen::Index column = 0; column < numbers_of<Node>; ++column)
+      for (Eigen::Index row = 0; row < numbers_of<Node>; ++row)
+        model.curvature[static_cast<std::size_t>(column) * kernels::query_lanes +
+                        static_cast<std::size_t>(row)] =
+            static_cast<float>(0.5 * share * (curvature(row, column) + curvature(column, row)));
   };
-  if constexpr (!is_folded_node<Node>) {
+  if constexpr (is_folded_node<Node>) {
+    const FoldedFrame map = frame_of_folded(frame, interpolated);
+    FoldedModelValue of_columns;
+    meter_.measure(frame, q, map.p, column_of(map.p, map.bend), expected, buffers, of_columns);
+    const BentModelValue value = bent(of_columns, map.p, map.bend);
+    set_model(value.loss, map.scale.cwiseProduct(value.gradient),
+              map.scale.asDiagonal() * value.curvature * map.scale.asDiagonal());
+  } else {
+    ModelValue value;
+    if (meter_.by_arcs() && storage_ != Storage::inverse) {
+      meter_.measure(point_of_stored(storage_, frame, interpolated), q, expected, buffers, value);
+      set_model(value.loss, value.gradient, value.curvature);
+      return;
+    }
     const FrameOfStored map = frame_of_stored(storage_, frame, interpolated);
     if (!map.p.allFinite()) {
       model.loss = std::numeric_limits<double>::infinity();
       return;
     }
-    ModelValue value;
     meter_.measure(frame, q, map.p, expected, buffers, value);
-    set_model(value, jacobian(map));
-  } else {
-    const FoldedFrame map = frame_of_folded(frame, interpolated);
-    FoldedModelValue value;
-    meter_.measure(frame, q, map.p, column_of(map.p, map.bend), expected, buffers, value);
-    set_model(bent(value, map.p, map.bend), NodeMatrix<Node>(map.scale.asDiagonal()));
+    const Matrix9 to_frame = jacobian(map);
+    set_model(value.loss, to_frame.transpose() * value.gradient,
+              to_frame.transpose() * value.curvature * to_frame);
   }
 }
 
@@ -177,64 +203,71 @@ double QuerySystemOf<Node>::evaluate(const std::vector<Node>& stored, const RunC
 }
 
 template <typename Node>
-template <typename Value, typename Part>
-void QuerySystemOf<Node>::gather(std::vector<Value>& result, const RunContext& run,
-                                 const Value& zero, Part&& part) const {
-  result.assign(node_count_, zero);
+kernels::CellQueries QuerySystemOf<Node>::queries_of(const Cell& cell) const {
+  return {models_[cell.first].curvature.data(), sizeof(Model) / sizeof(float),
+          weights_.data() + cell.first * kernels::cell_corners, cell.last - cell.first, numbers};
+}
+
+template <typename Node>
+void QuerySystemOf<Node>::gradient(NodeVectorsOf<Node>& result, const RunContext& run) const {
+  using Vector = NodeVector<Node>;
+  result.assign(node_count_, Vector::Zero());
   parallel_for(node_count_, run, [&](std::size_t node) {
     for (const Corner& at : corners_of_node_[node]) {
-      Value of_cell = zero;
+      Vector of_cell = Vector::Zero();
       for (std::size_t q = cells_[at.cell].first; q < cells_[at.cell].last; ++q)
-        part(q, queries_[q].weights[at.corner], of_cell);
+        of_cell += queries_[q].weights[at.corner] * models_[q].gradient;
       result[node] += of_cell;
     }
   });
 }
 
 template <typename Node>
-void QuerySystemOf<Node>::gradient(NodeVectorsOf<Node>& result, const RunContext& run) const {
-  using Vector = NodeVector<Node>;
-  gather<Vector>(result, run, Vector::Zero(), [&](std::size_t q, double weight, Vector& sum) {
-    sum += weight * models_[q].gradient;
-  });
-}
-
-template <typename Node>
 void QuerySystemOf<Node>::multiply(const NodeVectorsOf<Node>& step, NodeVectorsOf<Node>& result,
                                    const RunContext& run) const {
-  using Vector = NodeVector<Node>;
-  NodeVectorsOf<Node> pulled(queries_.size());
+  AlignedFloats products(cells_.size() * cell_size);
   parallel_for(cells_.size(), run, [&](std::size_t c) {
-    for (std::size_t q = cells_[c].first; q < cells_[c].last; ++q) {
-      Vector interpolated = Vector::Zero();
-      for (std::size_t corner = 0; corner < 16; ++corner)
-        interpolated += queries_[q].weights[corner] * step[cells_[c].nodes[corner]];
-      // Into a value of its own: the order in which Eigen sums depends on where the result lies.
-      alignas(16) Vector product;
-      product = models_[q].curvature.lazyProduct(interpolated);
-      pulled[q] = product;
-    }
+    alignas(vector_alignment) float steps[cell_size] = {};
+    for (std::size_t corner = 0; corner < kernels::cell_corners; ++corner)
+      Eigen::Map<Eigen::Matrix<float, numbers_of<Node>, 1>>(steps + corner * kernels::query_lanes) =
+          step[cells_[c].nodes[corner]].template cast<float>();
+    kernels::multiply_cell(queries_of(cells_[c]), steps, products.data() + c * cell_size);
   });
-  gather<Vector>(result, run, Vector::Zero(),
-                 [&](std::size_t q, double weight, Vector& sum) { sum += weight * pulled[q]; });
+  result.resize(node_count_);
+  parallel_for(node_count_, run, [&](std::size_t node) {
+    result[node].setZero();
+    for (const Corner& at : corners_of_node_[node])
+      result[node] += Eigen::Map<const Eigen::Matrix<float, numbers_of<Node>, 1>>(
+                          products.data() + at.cell * cell_size + at.corner * kernels::query_lanes)
+                          .template cast<double>();
+  });
 }
 
 template <typename Node>
 void QuerySystemOf<Node>::diagonal_blocks(std::vector<NodeMatrix<Node>>& blocks,
                                           const RunContext& run) const {
-  using Matrix = NodeMatrix<Node>;
-  gather<Matrix>(blocks, run, Matrix::Zero(), [&](std::size_t q, double weight, Matrix& sum) {
-    sum += weight * weight * models_[q].curvature;
+  blocks.resize(node_count_);
+  parallel_for(node_count_, run, [&](std::size_t node) {
+    alignas(vector_alignment) float block[padded_curvature] = {};
+    for (const Corner& at : corners_of_node_[node])
+      kernels::add_blocks(queries_of(cells_[at.cell]), at.corner, block);
+    for (Eigen::Index column = 0; column < numbers_of<Node>; ++column)
+      for (Eigen::Index row = 0; row < numbers_of<Node>; ++row)
+        blocks[node](row, column) =
+            static_cast<double>(block[static_cast<std::size_t>(column) * kernels::query_lanes +
+                                      static_cast<std::size_t>(row)]);
   });
 }
 
 template <typename Node>
 std::size_t QuerySystemOf<Node>::memory_bytes(const QuerySampling& sampling, std::size_t queries,
                                               std::size_t cells, std::size_t nodes) {
-  const std::size_t query = sizeof(Query) + 2 * sizeof(Model) + sizeof(NodeVector<Node>) +
+  const std::size_t query = sizeof(Query) + 2 * sizeof(Model) +
+                            kernels::cell_corners * sizeof(float) +
                             QueryMeter::target_bytes(sampling) + 2 * sizeof(std::size_t);
   // A node's corners grow by doubling, and may have just grown.
-  return queries * query + cells * 2 * (sizeof(Cell) + 16 * sizeof(Corner)) +
+  return queries * query +
+         cells * (2 * (sizeof(Cell) + 16 * sizeof(Corner)) + cell_size * sizeof(float)) +
          nodes * sizeof(std::vector<Corner>);
 }
 

@@ -9,16 +9,19 @@
 // therefore has, in the steps s_i of all nodes, the gradient and curvature
 //     (grad F)_i = sum_p c_p w_pi g_p,   (H s)_i = sum_p c_p w_pi H_p sum_j w_pj s_j.
 // The curvature is never formed: it couples a node with its 80 neighbours, but each query's part is
-// a 9 x 9 matrix between two interpolations.
+// a 9 x 9 matrix between two interpolations, kept and multiplied with in single precision
+// (query_kernels.h).
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "core/aligned.h"
 #include "core/run_context.h"
 #include "fit/quantile_model.h"
 #include "refine/node_space.h"
+#include "refine/query_kernels.h"
 #include "refine/query_meter.h"
 #include "refine/refine_queries.h"
 #include "refine/refine_settings.h"
@@ -57,6 +60,8 @@ class QuerySystemOf {
   void diagonal_blocks(std::vector<NodeMatrix<Node>>& blocks, const RunContext& run = {}) const;
 
  private:
+  static constexpr std::size_t numbers = numbers_of<Node>;
+  static constexpr std::size_t padded_curvature = numbers * kernels::query_lanes;
   struct Query {
     Lobe lobe;
     std::array<double, 16> weights;  // of the cell's nodes
@@ -66,31 +71,29 @@ class QuerySystemOf {
   struct Model {
     double loss = 0;
     NodeVector<Node> gradient;
-    NodeMatrix<Node> curvature;
+    alignas(vector_alignment) std::array<float, padded_curvature> curvature;
   };
   // Neighbouring queries, which share their 16 nodes.
   struct Cell {
     std::array<std::size_t, 16> nodes;
     std::size_t first, last;  // queries
   };
+  kernels::CellQueries queries_of(const Cell& cell) const;
   void evaluate_query(std::size_t q, const Node& interpolated, QueryMeter::Buffers& buffers);
-  // Sums at every node what `part` adds for each query of its cells.
-  template <typename Value, typename Part>
-  void gather(std::vector<Value>& result, const RunContext& run, const Value& zero,
-              Part&& part) const;
-
   struct Corner {
     std::size_t cell, corner;
   };
+  static constexpr std::size_t cell_size = kernels::cell_corners * kernels::query_lanes;
 
   Storage storage_;
   std::size_t node_count_;
   QueryMeter meter_;
   std::vector<Query> queries_;  // cell by cell
+  AlignedFloats weights_;       // theirs, cell_corners a query
   std::vector<Cell> cells_;
   std::vector<std::vector<Corner>> corners_of_node_;
   std::vector<Model> models_, evaluated_;
-  std::vector<BinnedTarget> targets_;
+  std::vector<QueryTarget> targets_;
 };
 using QuerySystem = QuerySystemOf<Eigen::Matrix3d>;
 using FoldedQuerySystem = QuerySystemOf<FoldedNode>;

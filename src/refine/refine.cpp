@@ -153,8 +153,7 @@ template <typename Node>
 std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Node>& stored,
                                 const RunContext& run) {
   const Grid& grid = nodes.grid;
-  constexpr std::size_t bins = 64;
-  const LossMeter meter(bins, nodes.creases);
+  const LossMeter meter(nodes.creases);
   std::vector<double> losses(grid.size(), std::numeric_limits<double>::quiet_NaN());
   parallel_for_each<FitWorkspace>(
       "node losses", grid.size(), run, [] { return FitWorkspace(); },

@@ -3,23 +3,40 @@
 // What the config's [refine] section says.
 #pragma once
 
+#include "core/enum_names.h"
 #include "ltc/horizon.h"
 #include "table/queries.h"
 
 namespace ltc {
 
-// How a query's loss is measured while a table is refined. Few samples do: what is noise in one
-// query is not in its neighbours, which are measured with other sets.
+// How the distribution of a query's LTC is found: in closed form (fit/arc_model.h), or on samples
+// (fit/quantile_model.h), which folded lobes and those that a scaled horizon cuts take in any case.
+enum class QueryLoss { arcs, samples };
+constexpr EnumNames<QueryLoss, 2> enum_names(QueryLoss) {
+  return {"loss", {{{QueryLoss::arcs, "arcs"}, {QueryLoss::samples, "samples"}}}};
+}
+
+// What a refinement begins with: matrices in closed form (fit/start_table.h), or each node's fit.
+enum class RefineStart { closed_form, fits };
+constexpr EnumNames<RefineStart, 2> enum_names(RefineStart) {
+  return {"start", {{{RefineStart::closed_form, "closed-form"}, {RefineStart::fits, "fits"}}}};
+}
+
+// How a query's loss is measured while a table is refined. Few directions and samples do: what is
+// noise in one query is not in its neighbours, which are measured with other sets.
 struct QuerySampling {
-  int samples = 512;          // cosine samples, [64, 65536]
-  int directions = 8;         // projection directions, [4, 4096]
+  QueryLoss loss = QueryLoss::arcs;
+  int directions = 8;  // projection directions, [4, 4096]
+  int thresholds = 8;  // of arcs, where along a direction distributions are compared, [4, 256]
+  int samples = 512;   // of samples, those of the cosine, [64, 65536]
   int target_samples = 1024;  // weighted GGX samples, [64, 1048576]
   // As FitSettings::horizon, which sets it.
   HorizonMode horizon = HorizonMode::clipped;
 };
 
 struct RefineSettings {
-  int steps = 12;               // most outer steps, [0, 1000]; 0 for no refinement
+  int steps = 12;  // most outer steps, [0, 1000]; 0 for no refinement
+  RefineStart start = RefineStart::closed_form;
   int queries_per_cell = 8;     // refined on, on average, [1, 1000]
   double table_share = 0.1;     // of them uniform in the table's own axes, not as asked for, [0, 1]
   double node_weight = 0.02;    // share of the objective that the nodes' own lobes have, [0, 1]

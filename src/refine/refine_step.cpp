@@ -15,7 +15,7 @@ constexpr double least_curvature = 1e-4;
 // Conjugate gradients end when the residual's norm has fallen by this, or after so many iterations:
 // the model is not worth more.
 constexpr double residual_share = 1e-2;
-constexpr int most_iterations = 60;
+constexpr int most_iterations = 12;
 
 template <typename Vector>
 double dot(const std::vector<Vector>& a, const std::vector<Vector>& b) {
