@@ -58,6 +58,7 @@ std::vector<Key> fit_keys() {
       key("fit.target", [](Draft& d) { return &d.config.fit.target; }, "how the lobe is sampled: weighted lattice, or algorithm 1 with rejection as published"),
       key("fit.seed", [](Draft& d) { return &d.config.fit.seed; }, {0, most_seed}, "seed of what is random: sgd, rejection, random starts; without effect on the default settings"),
 
+      key("fit.gauss_newton.loss", [](Draft& d) { return &d.config.fit.gauss_newton.loss; }, "how the distribution of an LTC is found"),
       key("fit.gauss_newton.coarse_samples", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_samples; }, {64, 65536}, "cosine samples of the coarse phase"),
       key("fit.gauss_newton.coarse_directions", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_directions; }, {4, 4096}, "projection directions of the coarse phase"),
       key("fit.gauss_newton.coarse_steps", [](Draft& d) { return &d.config.fit.gauss_newton.coarse_steps; }, {0, 1000}, "most steps of the coarse phase, for each start"),

@@ -266,36 +266,36 @@ void CutCones(const double* w, const Cones& cones, const ArcNodes& nodes,
   }
 }
 
-// The positive eigenvalue of C; its determinant, known without cancellation, helps where the
-// eigenvalue is small beside the others.
+// The positive eigenvalue of C, by Newton's method on its characteristic polynomial
+//     p(x) = x^3 - trace x^2 + minors x - determinant,
+// whose determinant is known without cancellation. Sharp lobes have two eigenvalues near zero that
+// trigonometric formulas cannot tell apart. The norm of C is an upper bound; so is, where the trace
+// is negative, the root that p has without its cube. One of them is less than 2.3 times too large.
 V positive_eigenvalue(const Symmetric& c, V determinant) {
   const Doubles d;
-  const V third = hn::Set(d, 1.0 / 3), half = hn::Set(d, 0.5), one = hn::Set(d, 1.0);
-  const V tiny = hn::Set(d, 1e-300);
-  const V trace = hn::Add(c.xx, hn::Add(c.yy, c.zz)), mean = hn::Mul(trace, third);
-  const V kx = hn::Sub(c.xx, mean), ky = hn::Sub(c.yy, mean), kz = hn::Sub(c.zz, mean);
-  const V off = hn::MulAdd(c.xy, c.xy, hn::MulAdd(c.xz, c.xz, hn::Mul(c.yz, c.yz)));
-  const V square = hn::MulAdd(kx, kx, hn::MulAdd(ky, ky, hn::Mul(kz, kz)));
-  const V p = hn::Max(hn::Mul(third, hn::MulAdd(half, square, off)), tiny);
-  const V root = hn::Sqrt(p);
-  const V det_k = hn::MulAdd(kx, hn::MulSub(ky, kz, hn::Mul(c.yz, c.yz)),
-                             hn::MulAdd(c.xy, hn::MulSub(c.yz, c.xz, hn::Mul(c.xy, kz)),
-                                        hn::Mul(c.xz, hn::MulSub(c.xy, c.yz, hn::Mul(ky, c.xz)))));
-  const V ratio = hn::Div(hn::Mul(half, det_k), hn::Max(hn::Mul(p, root), tiny));
-  const V angle = hn::Mul(third, hn::Acos(d, hn::Max(hn::Min(ratio, one), hn::Neg(one))));
-  V lambda = hn::MulAdd(hn::Add(root, root), hn::Cos(d, angle), mean);
+  const V zero = hn::Zero(d);
+  const V trace = hn::Add(c.xx, hn::Add(c.yy, c.zz));
   const V minors = hn::Add(hn::MulSub(c.xx, c.yy, hn::Mul(c.xy, c.xy)),
                            hn::Add(hn::MulSub(c.xx, c.zz, hn::Mul(c.xz, c.xz)),
                                    hn::MulSub(c.yy, c.zz, hn::Mul(c.yz, c.yz))));
-  for (int i = 0; i < 2; ++i) {
-    const V value =
-        hn::MulSub(hn::MulAdd(hn::Sub(lambda, trace), lambda, minors), lambda, determinant);
-    const V slope =
-        hn::MulAdd(hn::MulSub(hn::Set(d, 3.0), lambda, hn::Add(trace, trace)), lambda, minors);
-    const V next = hn::Sub(lambda, hn::Div(value, slope));
-    lambda = hn::IfThenElse(hn::Gt(slope, hn::Zero(d)), next, lambda);
+  const V off = hn::MulAdd(c.xy, c.xy, hn::MulAdd(c.xz, c.xz, hn::Mul(c.yz, c.yz)));
+  const V norm = hn::Sqrt(hn::MulAdd(
+      hn::Set(d, 2.0), off, hn::MulAdd(c.xx, c.xx, hn::MulAdd(c.yy, c.yy, hn::Mul(c.zz, c.zz)))));
+  // -trace x^2 + minors x - determinant = 0
+  const V twice = hn::Abs(hn::Add(trace, trace));
+  const V root = hn::Sqrt(
+      hn::Max(hn::MulAdd(minors, minors, hn::Mul(hn::Add(twice, twice), determinant)), zero));
+  const V above = hn::IfThenElse(hn::Gt(minors, zero),
+                                 hn::Div(hn::Add(determinant, determinant), hn::Add(minors, root)),
+                                 hn::Div(hn::Sub(root, minors), twice));
+  V x = hn::IfThenElse(hn::Lt(trace, zero), hn::Min(above, norm), norm);
+  constexpr int iterations = 6;
+  for (int i = 0; i < iterations; ++i) {
+    const V value = hn::MulSub(hn::MulAdd(hn::Sub(x, trace), x, minors), x, determinant);
+    const V slope = hn::MulAdd(hn::MulSub(hn::Set(d, 3.0), x, hn::Add(trace, trace)), x, minors);
+    x = hn::IfThenElse(hn::Gt(slope, zero), hn::Sub(x, hn::Div(value, slope)), x);
   }
-  return hn::Max(lambda, tiny);
+  return hn::Max(x, hn::Set(d, 1e-300));
 }
 
 void WholeCones(const double* w, const Cones& cones, const ConeResults& results) {

@@ -176,13 +176,17 @@ class CurvatureCorrection {
 // The model without its prior.
 void evaluate_at(const DescentTask& task, const Place& at, std::size_t direction_stride,
                  double smoothing, ModelWorkspace& workspace, ModelValue& value) {
-  evaluate_model({task.frame, at.p, task.cosines, task.target, direction_stride, smoothing},
-                 workspace, value);
+  if (task.arcs)
+    evaluate_arcs(point_of_frame(task.frame, at.p), task.arcs->view, smoothing,
+                  task.arcs->workspace, value);
+  else
+    evaluate_model({task.frame, at.p, *task.cosines, *task.target, direction_stride, smoothing},
+                   workspace, value);
 }
 void evaluate_at(const DescentTask& task, const Place& at, std::size_t direction_stride,
                  double smoothing, ModelWorkspace& workspace, BentModelValue& value) {
   FoldedModelValue of_columns;
-  evaluate_model({task.frame, at.p, task.cosines, task.target, direction_stride, smoothing},
+  evaluate_model({task.frame, at.p, *task.cosines, *task.target, direction_stride, smoothing},
                  {column_of(at.p, at.bend), task.fold->u}, workspace, of_columns);
   value = bent(of_columns, at.p, at.bend);
 }
@@ -222,7 +226,7 @@ template <int numbers>
 Descent descend(const DescentTask& task, const DescentOptions& options, ModelWorkspace& workspace,
                 std::vector<FitStep>* trace) {
   const LobeFrame& frame = task.frame;
-  const double spread = task.target.spread();
+  const double spread = task.spread();
   Descent best;
   Place place{task.start / task.start.col(2).norm(), task.fold ? task.fold->start : Bend::Zero()};
   ModelValueOf<numbers> value, trial_value;
@@ -264,7 +268,7 @@ Descent descend(const DescentTask& task, const DescentOptions& options, ModelWor
     best.loss = trial_value.loss;
     std::swap(value, trial_value);
     objective = trial_objective;
-    damping = std::max(damping * 0.25, 1e-5);
+    damping = std::max(damping * 0.25, options.least_damping);
     if (gain < options.tolerance * objective) {
       best.converged = true;
       ++best.steps;

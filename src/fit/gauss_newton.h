@@ -8,16 +8,18 @@
 #include <chrono>
 #include <vector>
 
+#include "fit/arc_model.h"
 #include "fit/quantile_model.h"
 #include "fit/solver.h"
 
 namespace ltc {
 
 struct DescentOptions {
-  int steps = 10;              // most steps, accepted or not
-  double tolerance = 1e-3;     // stop when an accepted step gains less than this share of the loss
-  double damping = 1e-2;       // first damping, relative to the curvature's diagonal
-  double prior_weight = 1e-2;  // of the pull towards P0, see prior()
+  int steps = 10;           // most steps, accepted or not
+  double tolerance = 1e-3;  // stop when an accepted step gains less than this share of the loss
+  double damping = 1e-2;    // first damping, relative to the curvature's diagonal
+  double least_damping = 1e-5;
+  double prior_weight = 1e-2;        // of the pull towards P0, see prior()
   std::size_t direction_stride = 1;  // every which of the target's directions is looked along
   // What a trace calls these steps, and since when it counts time.
   FitPhase phase = {};
@@ -48,14 +50,31 @@ struct FoldTask {
   const AlignedFloats& u;
 };
 
-// From where, over which entries, to fit which samples to which target.
+// What an LTC is compared with by arcs.
+struct ArcTask {
+  ArcView view;
+  ArcWorkspace& workspace;
+};
+
+// From where, over which entries, to fit which samples to which target, or an LTC by arcs.
 struct DescentTask {
+  DescentTask(const LobeFrame& frame, const Eigen::Matrix3d& start, const FreeEntries& free,
+              const CosineSet& cosines, const TargetQuantiles& target,
+              const FoldTask* fold = nullptr)
+      : frame(frame), start(start), free(free), cosines(&cosines), target(&target), fold(fold) {}
+  DescentTask(const LobeFrame& frame, const Eigen::Matrix3d& start, const FreeEntries& free,
+              const ArcTask& arcs)
+      : frame(frame), start(start), free(free), arcs(&arcs) {}
+
+  double spread() const { return arcs ? arcs->view.target.spread : target->spread(); }
+
   const LobeFrame& frame;
   const Eigen::Matrix3d& start;
   const FreeEntries& free;
-  const CosineSet& cosines;
-  const TargetQuantiles& target;
+  const CosineSet* cosines = nullptr;  // null: by arcs
+  const TargetQuantiles* target = nullptr;
   const FoldTask* fold = nullptr;  // null: the lobe is not folded
+  const ArcTask* arcs = nullptr;   // null: by samples
 };
 
 // Minimises the model over the free entries of P, and of the fold, from the start. A weak prior

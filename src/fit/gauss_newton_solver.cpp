@@ -71,7 +71,12 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
       directions_(in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)))),
       bins_(bins_for(settings.samples)),
       usual_(make_ladder(settings, creases, horizon)),
-      graded_(make_graded_ladder(settings, creases, horizon)) {}
+      graded_(make_graded_ladder(settings, creases, horizon)) {
+  // Settings that ask for more than one start are tried by samples.
+  if (settings.loss == LossKind::arcs && target == TargetKind::weighted && creases.empty() &&
+      horizon == HorizonMode::clipped && settings.starts == 1)
+    arcs_.emplace(settings);
+}
 
 const SampleLadder& GaussNewtonSolver::ladder_for(const LobeFrame& frame) const {
   return target_kind_ == TargetKind::weighted && (is_extreme(frame) || is_sharp(frame)) ? graded_
@@ -180,6 +185,13 @@ class GaussNewtonSolver::Fit {
   }
 
   FitResult fit_anew() {
+    if (request_.starts.empty() && solver_.arcs_ && ArcFit::takes(frame_)) {
+      const FitResult found = solver_.arcs_->fit(request_, frame_, workspace_, trace_);
+      seen_.reset();
+      if (usable(found.matrix) && std::isfinite(found.loss))
+        return found;
+      see_target(Look::light);
+    }
     if (request_.starts.empty() && &ladder_ == &solver_.usual_) {
       const Descent best = best_of(coarse_descents(own_starts(), Kind::own_start));
       return std::isfinite(best.loss) ? climbed(best) : no_result(result_.steps);

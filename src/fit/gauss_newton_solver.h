@@ -14,8 +14,10 @@
 // folded, as all azimuths share theirs.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "fit/arc_fit.h"
 #include "fit/sample_ladder.h"
 #include "fit/settings.h"
 #include "fit/solver.h"
@@ -47,6 +49,7 @@ class GaussNewtonSolver final : public Solver {
   std::vector<Eigen::Vector3f> directions_;
   std::size_t bins_;
   SampleLadder usual_, graded_;
+  std::optional<ArcFit> arcs_;  // where lobes may be fitted by arcs
 
   class Fit;
 };

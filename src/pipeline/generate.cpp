@@ -18,7 +18,7 @@
 #include "core/version.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
-#include "fit/start_table.h"
+#include "pipeline/first_entries.h"
 #include "pipeline/post_process.h"
 #include "postprocess/normalise.h"
 #include "refine/refine_queries.h"
@@ -102,11 +102,6 @@ std::vector<QueryRange> ranges_served(const Config& config, const std::vector<Qu
   for (const QueryRange& range : asked)
     served.push_back(clamped_range(config.grid, range));
   return served;
-}
-
-// The nodes that refine.keep_smoothest is about.
-bool is_smoothest(const Grid& grid, std::size_t flat) {
-  return grid.alpha.nodes[grid.node(flat).alpha] <= grid.alpha_min;
 }
 
 // What of a node is refined.
@@ -284,10 +279,22 @@ void fit_folded_nodes(const FitSettings& settings, const std::vector<bool>& chos
     }
 }
 
-// Whether refinement begins with matrices in closed form.
-bool starts_in_closed_form(const Config& config) {
-  return config.refine.steps > 0 && config.refine.start == RefineStart::closed_form &&
-         config.fit.solver == SolverKind::gauss_newton;
+// The entries of a plain table before they are refined.
+template <typename FinishStage>
+void fill_plain(const Config& config, const std::vector<PlannedEntry>& plan, const RunContext& run,
+                FitJournal* journal, GenerateReport& result, const FinishStage& finish_stage,
+                Table& table) {
+  result.fits = representative_count(plan_of_fits(config, plan));
+  result.fits_of_whole_grid = result.fits == 0 ? 0 : EqualLobes(config.grid).count();
+  std::vector<FittedEntry> entries = first_entries(config, plan, run, journal);
+  finish_stage(starts_in_closed_form(config) ? "start" : "fit");
+  align_all(entries, run);
+  finish_stage("align");
+  post_process_all(config.grid, entries, table, run, result);
+  // Files state the losses of whole lobes.
+  if (config.fit.horizon == HorizonMode::scaled)
+    measure_losses(run, table);
+  finish_stage("post-process");
 }
 
 void describe(const Config& config, Table& table) {
@@ -310,8 +317,10 @@ Cost cost_of(const Config& config, const std::vector<bool>& needed, const Refine
   if (config.storage == Storage::folded)
     cost.queries = static_cast<std::size_t>(config.field.queries);
   if (config.storage != Storage::folded || config.refine.steps == 0)
-    cost.fits = whole ? EqualLobes(config.grid).count()
-                      : representative_count(plan_by_symmetry(config.grid, needed));
+    cost.fits =
+        whole && !starts_in_closed_form(config)
+            ? EqualLobes(config.grid).count()
+            : representative_count(plan_of_fits(config, plan_by_symmetry(config.grid, needed)));
   if (config.refine.steps > 0)
     cost.queries += refined_query_count(config.grid, values_behind(needed, context), config.refine);
   return cost;
@@ -384,20 +393,7 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     finish_stage("fit");
     measure_losses(run, table);
   } else {
-    result.fits = lobes;
-    result.fits_of_whole_grid = EqualLobes(config.grid).count();
-    std::vector<FittedEntry> entries =
-        starts_in_closed_form(config)
-            ? start_table(config.grid, plan, run)
-            : fit_table(config.grid, config.fit, plan, run, nullptr, journal);
-    finish_stage(starts_in_closed_form(config) ? "start" : "fit");
-    align_all(entries, run);
-    finish_stage("align");
-    post_process_all(config.grid, entries, table, run, result);
-    // Files state the losses of whole lobes.
-    if (config.fit.horizon == HorizonMode::scaled)
-      measure_losses(run, table);
-    finish_stage("post-process");
+    fill_plain(config, plan, run, journal, result, finish_stage, table);
   }
   describe(config, table);
   table.refined = false;
@@ -406,6 +402,12 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     if (context.asked.empty() && ranges.front() != config.refine.range)
       result.range_served = ranges.front();
     result.refine = refine_nodes(config, context, ranges, run, table);
+    if (!is_folded(table) && starts_in_closed_form(config) && !result.refine->converged) {
+      Config by_fits = config;
+      by_fits.refine.start = RefineStart::fits;
+      fill_plain(by_fits, plan, run, journal, result, finish_stage, table);
+      result.refine = refine_nodes(config, context, ranges, run, table);
+    }
     table.refined = result.refine->kept;
     finish_stage("refine");
   }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "refine/field_kernels.h"
 #include "table/reduction.h"
 
 namespace ltc {
@@ -21,6 +22,11 @@ namespace {
 // times the loss count as zero; and how often what is far off is weighed anew.
 constexpr double start_damping = 1e-4, start_smoothing = 10;
 constexpr int start_rounds = 4;
+
+kernels::Columns columns_of(const Eigen::MatrixXf& matrix) {
+  return {matrix.data(), static_cast<std::size_t>(matrix.rows()),
+          static_cast<std::size_t>(matrix.cols())};
+}
 
 }  // namespace
 
@@ -174,14 +180,18 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
           gradient[q] = weights[at] * models_[at].gradient[row];
         }
         weighted.noalias() = curvature.asDiagonal() * rows_[b];
-        const Eigen::MatrixXf block = rows_[a].transpose() * weighted;
-        result.curvature.block(first_[a], first_[b], block.rows(), block.cols()) =
-            block.cast<double>();
-        result.curvature.block(first_[b], first_[a], block.cols(), block.rows()) =
-            block.transpose().cast<double>();
-        if (a == b)
-          result.gradient.segment(first_[a], block.rows()) =
-              rows_[a].transpose().cast<double>() * gradient;
+        if (rows_[a].cols() == 0 || rows_[b].cols() == 0)
+          return;
+        kernels::multiply_transposed(columns_of(rows_[a]), columns_of(weighted),
+                                     &result.curvature(first_[a], first_[b]),
+                                     static_cast<std::size_t>(n));
+        if (a != b)
+          result.curvature.block(first_[b], first_[a], rows_[b].cols(), rows_[a].cols()) =
+              result.curvature.block(first_[a], first_[b], rows_[a].cols(), rows_[b].cols())
+                  .transpose();
+        else
+          for (Eigen::Index i = 0; i < rows_[a].cols(); ++i)
+            result.gradient[first_[a] + i] = rows_[a].col(i).cast<double>().dot(gradient);
       });
   return result;
 }

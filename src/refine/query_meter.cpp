@@ -27,7 +27,7 @@ Eigen::Matrix3d random_rotation(Random& random) {
 
 QueryMeter::QueryMeter(const QuerySampling& sampling, double shift, const Creases& creases)
     : loss_(sampling.horizon == HorizonMode::clipped && creases.empty() ? sampling.loss
-                                                                        : QueryLoss::samples),
+                                                                        : LossKind::samples),
       rule_(static_cast<std::size_t>(sampling.thresholds), arc_nodes) {
   Random random(static_cast<std::uint64_t>(shift * 0x1p32));
   const std::size_t set_count = by_arcs() ? sets_of_arcs : sets_of_samples;
@@ -52,7 +52,7 @@ double QueryMeter::see(const LobeFrame& frame, std::size_t query, QueryTarget& t
                        Buffers& buffers) const {
   const SampleSet& set = set_of(query);
   buffers.seen = &target;
-  if (loss_ == QueryLoss::arcs) {
+  if (loss_ == LossKind::arcs) {
     if (target.arcs.above.empty()) {
       sample_weighted_target(frame, set.lattice, buffers.target);
       set_target(buffers.target, set.directions, rule_, buffers.xi, target.arcs);
@@ -73,7 +73,7 @@ double QueryMeter::see(const LobeFrame& frame, std::size_t query, QueryTarget& t
 void QueryMeter::measure(const LobeFrame& frame, std::size_t query, const Eigen::Matrix3d& p,
                          double expected, Buffers& buffers, ModelValue& value) const {
   const SampleSet& set = set_of(query);
-  if (loss_ == QueryLoss::arcs)
+  if (loss_ == LossKind::arcs)
     measure(point_of_frame(frame, p), query, expected, buffers, value);
   else
     evaluate_model({frame, p, set.cosines, buffers.quantiles, 1, smoothing_share * expected},

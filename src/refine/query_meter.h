@@ -27,7 +27,7 @@ class QueryMeter {
   QueryMeter(const QuerySampling& sampling, double shift, const Creases& creases = {});
 
   // Whether distributions are found by arcs.
-  bool by_arcs() const { return loss_ == QueryLoss::arcs; }
+  bool by_arcs() const { return loss_ == LossKind::arcs; }
 
   // One a thread.
   struct Buffers {
@@ -71,7 +71,7 @@ class QueryMeter {
   };
   const SampleSet& set_of(std::size_t query) const { return sets_[query % sets_.size()]; }
 
-  QueryLoss loss_;
+  LossKind loss_;
   ArcRule rule_;
   std::vector<SampleSet> sets_;
 };

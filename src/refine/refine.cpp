@@ -25,6 +25,9 @@ constexpr double damping_fall = 0.4, damping_rise = 6, least_damping = 1e-3;
 // and some digits of it.
 constexpr double least_determinant_share = 0.1, least_solid_angle = 0.01, most_condition = 1e6;
 
+// What a last step gains, as a share of the loss, where a refinement has converged.
+constexpr double little_gain = 0.03;
+
 // Sets of samples that the held-out queries do not share with those refined on.
 constexpr double refined_shift = 0.0, held_out_shift = 0.4321;
 
@@ -134,6 +137,7 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
     }
     const double gain = objective - next;
     objective = next;
+    report.converged = gain < little_gain * objective;
     queries.adopt();
     current = trial;
     damping = std::max(damping * damping_fall, least_damping);
@@ -146,6 +150,7 @@ RefineReport refine(const TableNodes& nodes, const std::vector<bool>& movable,
     if (gain < settings.tolerance * objective)
       break;
   }
+  report.converged = report.converged && report.kept;
   return report;
 }
 

@@ -32,6 +32,8 @@ struct RefineReport {
   double loss_after = 0;
   int steps = 0;      // outer steps, taken back or not
   bool kept = false;  // false: the table is as it came
+  // Kept, and the last step gained little: another start would end alike.
+  bool converged = false;
 };
 
 // Refines `stored`, one S a node of the grid with third column of unit length and positive

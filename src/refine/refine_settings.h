@@ -4,17 +4,11 @@
 #pragma once
 
 #include "core/enum_names.h"
+#include "fit/loss_kind.h"
 #include "ltc/horizon.h"
 #include "table/queries.h"
 
 namespace ltc {
-
-// How the distribution of a query's LTC is found: in closed form (fit/arc_model.h), or on samples
-// (fit/quantile_model.h), which folded lobes and those that a scaled horizon cuts take in any case.
-enum class QueryLoss { arcs, samples };
-constexpr EnumNames<QueryLoss, 2> enum_names(QueryLoss) {
-  return {"loss", {{{QueryLoss::arcs, "arcs"}, {QueryLoss::samples, "samples"}}}};
-}
 
 // What a refinement begins with: matrices in closed form (fit/start_table.h), or each node's fit.
 enum class RefineStart { closed_form, fits };
@@ -25,7 +19,7 @@ constexpr EnumNames<RefineStart, 2> enum_names(RefineStart) {
 // How a query's loss is measured while a table is refined. Few directions and samples do: what is
 // noise in one query is not in its neighbours, which are measured with other sets.
 struct QuerySampling {
-  QueryLoss loss = QueryLoss::arcs;
+  LossKind loss = LossKind::arcs;
   int directions = 8;  // projection directions, [4, 4096]
   int thresholds = 8;  // of arcs, where along a direction distributions are compared, [4, 256]
   int samples = 512;   // of samples, those of the cosine, [64, 65536]
@@ -39,11 +33,11 @@ struct RefineSettings {
   RefineStart start = RefineStart::closed_form;
   int queries_per_cell = 8;     // refined on, on average, [1, 1000]
   double table_share = 0.1;     // of them uniform in the table's own axes, not as asked for, [0, 1]
-  double node_weight = 0.02;    // share of the objective that the nodes' own lobes have, [0, 1]
+  double node_weight = 0.05;    // share of the objective that the nodes' own lobes have, [0, 1]
   int held_out_queries = 2000;  // not refined on: they decide what is kept, [100, 1000000]
   double damping = 0.05;        // first mu, (0, 1e6]
   double overshoot = 1.5;   // steps are taken this many times as long as the model says, (0, 1.9]
-  double tolerance = 5e-4;  // ends when a step gains less than this share of the loss, [0, 1]
+  double tolerance = 5e-3;  // ends when a step gains less than this share of the loss, [0, 1]
   bool keep_smoothest = false;  // nodes with alpha <= alpha_min stay as they are
   QuerySampling sampling;
   QueryRange range;  // what is asked for where no scene says so

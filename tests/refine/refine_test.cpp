@@ -173,7 +173,8 @@ TEST(NodeSpace, StepsAreShortenedBeforeColumnsMeet) {
     step[node][3 * row] = 500 * stored[node](row, 2);
   std::vector<SingularityBound> bounds = no_bounds(grid);
   bounds[node].solid_angle = 0.03;
-  EXPECT_LT(solid_angle_of_columns(stepped(Storage::matrix, stored, step, no_bounds(grid))[node]), 0.01);
+  EXPECT_LT(solid_angle_of_columns(stepped(Storage::matrix, stored, step, no_bounds(grid))[node]),
+            0.01);
   const std::vector<Eigen::Matrix3d> result = stepped(Storage::matrix, stored, step, bounds);
   EXPECT_GE(solid_angle_of_columns(result[node]), 0.03);
   EXPECT_NE(result[node], stored[node]);
@@ -204,47 +205,58 @@ TEST(NodeSpace, StepsAreShortenedBeforeAColumnVanishes) {
   EXPECT_FALSE(std::isfinite(frobenius_condition(Eigen::Matrix3d::Zero())));
 }
 
+QuerySampling fine_sampling(LossKind loss = LossKind::samples) {
+  QuerySampling sampling;
+  sampling.loss = loss;
+  sampling.samples = 1024;
+  sampling.directions = sampling.thresholds = 16;
+  sampling.target_samples = 4096;
+  return sampling;
+}
+
 struct System {
-  explicit System(const Grid& grid, Storage storage = Storage::matrix)
+  explicit System(const Grid& grid, Storage storage = Storage::matrix,
+                  LossKind loss = LossKind::samples)
       : asked{random_queries({0.4, 1, 0.2, 1, 0.1, 1}, 60, 5, 1e-4),
               std::vector<double>(60, 1.0 / 60)},
-        queries({grid, storage, all_of(grid)}, asked, {1024, 16, 4096}, 0.0) {}
+        queries({grid, storage, all_of(grid)}, asked, fine_sampling(loss), 0.0) {}
   WeightedLobes asked;
   QuerySystem queries;
 };
 
 TEST(QuerySystem, GradientIsThatOfItsValue) {
   const Grid grid = small_grid();
-  for (const Storage storage :
-       {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame}) {
-    System system(grid, storage);
-    const std::vector<Eigen::Matrix3d> stored = matrices(grid, storage);
-    // Twice: the second time the smoothing goes by the loss of the first.
-    system.queries.evaluate(stored, {1});
-    system.queries.adopt();
-    const double value = system.queries.evaluate(stored, {1});
-    system.queries.adopt();
-    NodeVectors gradient;
-    system.queries.gradient(gradient, {1});
-    NodeVectors step = random_step(grid.size(), 6);
-    // Downhill, so that there is something to see.
-    const double length = 2e-3 / std::sqrt(dot(gradient, gradient));
-    for (std::size_t i = 0; i < step.size(); ++i)
-      step[i] = length * gradient[i];
-    const auto moved = [&](double sign) {
-      std::vector<Eigen::Matrix3d> result = stored;
-      for (std::size_t n = 0; n < stored.size(); ++n)
-        for (int i = 0; i < 9; ++i)
-          result[n](i / 3, i % 3) += sign * step[n][i];
-      return result;
-    };
-    const double difference =
-        (system.queries.evaluate(moved(1), {1}) - system.queries.evaluate(moved(-1), {1})) / 2;
-    // The loss is binned and its gradient smoothed near zero residuals by 5 % of the loss: some per
-    // cent on each query, less in the sum.
-    EXPECT_NEAR(difference / dot(gradient, step), 1, 0.1) << name_of(storage);
-    EXPECT_GT(value, 0);
-  }
+  for (const LossKind loss : {LossKind::samples, LossKind::arcs})
+    for (const Storage storage :
+         {Storage::matrix, Storage::roughness_scaled, Storage::mirror_frame}) {
+      System system(grid, storage, loss);
+      const std::vector<Eigen::Matrix3d> stored = matrices(grid, storage);
+      // Twice: the second time the smoothing goes by the loss of the first.
+      system.queries.evaluate(stored, {1});
+      system.queries.adopt();
+      const double value = system.queries.evaluate(stored, {1});
+      system.queries.adopt();
+      NodeVectors gradient;
+      system.queries.gradient(gradient, {1});
+      NodeVectors step = random_step(grid.size(), 6);
+      // Downhill, so that there is something to see.
+      const double length = 2e-3 / std::sqrt(dot(gradient, gradient));
+      for (std::size_t i = 0; i < step.size(); ++i)
+        step[i] = length * gradient[i];
+      const auto moved = [&](double sign) {
+        std::vector<Eigen::Matrix3d> result = stored;
+        for (std::size_t n = 0; n < stored.size(); ++n)
+          for (int i = 0; i < 9; ++i)
+            result[n](i / 3, i % 3) += sign * step[n][i];
+        return result;
+      };
+      const double difference =
+          (system.queries.evaluate(moved(1), {1}) - system.queries.evaluate(moved(-1), {1})) / 2;
+      // The loss is binned and its gradient smoothed near zero residuals by 5 % of the loss: some
+      // per cent on each query, less in the sum.
+      EXPECT_NEAR(difference / dot(gradient, step), 1, 0.1) << name_of(storage);
+      EXPECT_GT(value, 0);
+    }
 }
 
 // Eleven numbers a node, with folds that are seen.
@@ -263,7 +275,7 @@ TEST(QuerySystem, GradientOfFoldedNodesIsThatOfItsValue) {
   const Grid grid = small_grid();
   const System plain(grid);
   FoldedQuerySystem queries({grid, Storage::folded, all_of(grid), usual_creases}, plain.asked,
-                            {1024, 16, 4096}, 0.0);
+                            fine_sampling(), 0.0);
   const std::vector<FoldedNode> nodes = folded_nodes(grid);
   for (int twice = 0; twice < 2; ++twice) {
     queries.evaluate(nodes, {1});
@@ -302,8 +314,8 @@ TEST(NodeSpace, FoldsKeepTheirSymmetries) {
     EXPECT_EQ(step[flat][10], isotropic ? 0 : 1) << flat;
   }
   // Gamma stays below its bound.
-  const std::vector<SingularityBound> bounds(
-      grid.size(), {-1e300, -2, 1e300, Eigen::Vector3d::Ones(), 1.0});
+  const std::vector<SingularityBound> bounds(grid.size(),
+                                             {-1e300, -2, 1e300, Eigen::Vector3d::Ones(), 1.0});
   NodeVectorsOf<FoldedNode> far(grid.size(), FoldedNode::Zero());
   const std::size_t free = grid.flat({1, 1, 1, 1});
   far[free][10] = 3;
@@ -323,14 +335,15 @@ TEST(QuerySystem, CurvatureIsSymmetricPositiveAndHasItsBlocks) {
   system.queries.multiply(b, hb, {1});
   const double scale = std::sqrt(dot(a, ha) * dot(b, hb));
   EXPECT_GT(dot(a, ha), 0);
-  EXPECT_NEAR(dot(a, hb) / scale, dot(b, ha) / scale, 1e-12);
+  // Products are in single precision.
+  EXPECT_NEAR(dot(a, hb) / scale, dot(b, ha) / scale, 1e-5);
   std::vector<Matrix9> blocks;
   system.queries.diagonal_blocks(blocks, {1});
   for (const std::size_t node : {grid.flat({1, 1, 1, 1}), grid.flat({2, 2, 1, 0})}) {
     NodeVectors unit(grid.size(), Vector9::Zero()), column;
     unit[node][4] = 1;
     system.queries.multiply(unit, column, {1});
-    EXPECT_LT((column[node] - blocks[node].col(4)).norm(), 1e-12 * blocks[node].norm());
+    EXPECT_LT((column[node] - blocks[node].col(4)).norm(), 1e-5 * blocks[node].norm());
     EXPECT_GT(blocks[node].norm(), 0);
   }
 }
@@ -340,7 +353,7 @@ TEST(QuerySystem, LeavesOutWhatNeedsANodeWithoutValues) {
   std::vector<bool> present = all_of(grid);
   present[grid.flat({2, 2, 2, 2})] = false;
   const System whole(grid);
-  const QuerySystem part({grid, Storage::matrix, present}, whole.asked, {1024, 16, 4096}, 0.0);
+  const QuerySystem part({grid, Storage::matrix, present}, whole.asked, fine_sampling(), 0.0);
   EXPECT_LT(part.size(), whole.queries.size());
   EXPECT_GT(part.size(), 30u);
   EXPECT_EQ(whole.queries.size(), 60u);

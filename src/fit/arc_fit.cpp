@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "fit/arc_fit.h"
+
+#include <algorithm>
+
+#include "fit/lobe_class.h"
+#include "fit/starting_points.h"
+
+namespace ltc {
+namespace {
+
+// The smaller over the larger roughness of the thinnest lobes that are fitted by arcs.
+constexpr double least_ratio = 0.1;
+
+constexpr std::size_t coarse_samples = 1024, arc_nodes = 8;
+
+// Damping that falls further than this makes steps that are taken back: three of ten.
+constexpr double least_damping = 0.1;
+
+// Of directions, and of thresholds.
+std::size_t coarse_count(const GaussNewtonSettings& settings) {
+  return static_cast<std::size_t>(std::max(4, 3 * settings.directions / 8));
+}
+
+}  // namespace
+
+ArcFit::ArcFit(const GaussNewtonSettings& settings)
+    : coarse_{make_target_lattice(coarse_samples, 0.3),
+              {},
+              ArcRule(coarse_count(settings), arc_nodes),
+              {}},
+      fine_{make_target_lattice(static_cast<std::size_t>(settings.target_samples), 0.3),
+            {},
+            ArcRule(static_cast<std::size_t>(settings.directions), arc_nodes),
+            {}} {
+  coarse_.directions = in_float(fibonacci_directions(coarse_count(settings)));
+  coarse_.options.steps = settings.coarse_steps;
+  coarse_.options.tolerance = settings.coarse_tolerance;
+  fine_.directions = in_float(fibonacci_directions(static_cast<std::size_t>(settings.directions)));
+  fine_.options.steps = settings.steps;
+  fine_.options.tolerance = settings.tolerance;
+  fine_.options.damping = least_damping;
+  for (Level* level : {&coarse_, &fine_})
+    level->options.least_damping = least_damping;
+}
+
+bool ArcFit::takes(const LobeFrame& frame) {
+  const double x = frame.lobe.alpha_x, y = frame.lobe.alpha_y;
+  return !is_sharp(frame) && !is_extreme(frame) && std::min(x, y) >= least_ratio * std::max(x, y);
+}
+
+Descent ArcFit::descend(const Level& level, const Request& request, const Eigen::Matrix3d& start,
+                        FitPhase phase) const {
+  FitWorkspace& workspace = request.workspace;
+  set_target(workspace.target, level.directions, level.rule, workspace.model.xi,
+             workspace.arc_target);
+  DescentOptions options = level.options;
+  options.begin = request.begin;
+  options.phase = phase;
+  options.progress = request.fit.progress;
+  const ArcTask arcs{{level.directions, level.rule, workspace.arc_target}, workspace.arcs};
+  return minimise({request.frame, start, request.free, arcs}, options, workspace.model,
+                  request.trace);
+}
+
+FitResult ArcFit::fit(const FitRequest& fit, const LobeFrame& frame, FitWorkspace& workspace,
+                      std::vector<FitStep>* trace) const {
+  const Request request{
+      fit, frame, free_entries(frame.lobe), std::chrono::steady_clock::now(), workspace, trace};
+  sample_weighted_target(frame, coarse_.lattice, workspace.target);
+  const Descent coarse = descend(coarse_, request, moment_start(frame, workspace.target),
+                                 {FitPhase::Kind::own_start, 0});
+  sample_weighted_target(frame, fine_.lattice, workspace.target);
+  const Descent fine = descend(fine_, request, coarse.frame_matrix, {FitPhase::Kind::fine, 0});
+  return {frame.to_matrix(fine.frame_matrix), fine.loss, coarse.steps + fine.steps,
+          fine.converged ? FitOutcome::converged : FitOutcome::step_limit};
+}
+
+}  // namespace ltc

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the ltcfit authors
+#include "refine/field_kernels.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "refine/field_kernels.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// After foreach_target.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace ltc::kernels::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::CappedTag<float, 16>;
+using V = hn::Vec<Floats>;
+
+// So many columns of a and b at once keep all sums in registers; a stretch of columns in the cache.
+constexpr std::size_t height = 4, width = 3, stretch = 1024;
+
+// The products of height columns of a and width of b over a stretch; columns beyond the last one
+// are the last one again.
+void multiply_tile(const Columns& a, std::size_t i, const Columns& b, std::size_t j,
+                   std::size_t begin, std::size_t end, float (&products)[width][height]) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d), whole = begin + (end - begin) / lanes * lanes;
+  const float* of_a[height];
+  const float* of_b[width];
+  for (std::size_t k = 0; k < height; ++k)
+    of_a[k] = a.data + std::min(i + k, a.count - 1) * a.rows;
+  for (std::size_t k = 0; k < width; ++k)
+    of_b[k] = b.data + std::min(j + k, b.count - 1) * b.rows;
+  V s00 = hn::Zero(d), s01 = s00, s02 = s00, s10 = s00, s11 = s00, s12 = s00;
+  V s20 = s00, s21 = s00, s22 = s00, s30 = s00, s31 = s00, s32 = s00;
+  for (std::size_t q = begin; q < whole; q += lanes) {
+    const V b0 = hn::LoadU(d, of_b[0] + q), b1 = hn::LoadU(d, of_b[1] + q),
+            b2 = hn::LoadU(d, of_b[2] + q);
+    V value = hn::LoadU(d, of_a[0] + q);
+    s00 = hn::MulAdd(value, b0, s00);
+    s01 = hn::MulAdd(value, b1, s01);
+    s02 = hn::MulAdd(value, b2, s02);
+    value = hn::LoadU(d, of_a[1] + q);
+    s10 = hn::MulAdd(value, b0, s10);
+    s11 = hn::MulAdd(value, b1, s11);
+    s12 = hn::MulAdd(value, b2, s12);
+    value = hn::LoadU(d, of_a[2] + q);
+    s20 = hn::MulAdd(value, b0, s20);
+    s21 = hn::MulAdd(value, b1, s21);
+    s22 = hn::MulAdd(value, b2, s22);
+    value = hn::LoadU(d, of_a[3] + q);
+    s30 = hn::MulAdd(value, b0, s30);
+    s31 = hn::MulAdd(value, b1, s31);
+    s32 = hn::MulAdd(value, b2, s32);
+  }
+  const V sums[width][height] = {{s00, s10, s20, s30}, {s01, s11, s21, s31}, {s02, s12, s22, s32}};
+  for (std::size_t column = 0; column < width; ++column)
+    for (std::size_t row = 0; row < height; ++row) {
+      float sum = hn::GetLane(hn::SumOfLanes(d, sums[column][row]));
+      for (std::size_t q = whole; q < end; ++q)
+        sum += of_a[row][q] * of_b[column][q];
+      products[column][row] = sum;
+    }
+}
+
+void MultiplyTransposed(const Columns& a, const Columns& b, double* result, std::size_t stride) {
+  for (std::size_t j = 0; j < b.count; ++j)
+    std::fill_n(result + j * stride, a.count, 0.0);
+  for (std::size_t begin = 0; begin < a.rows; begin += stretch) {
+    const std::size_t end = std::min(begin + stretch, a.rows);
+    for (std::size_t j = 0; j < b.count; j += width)
+      for (std::size_t i = 0; i < a.count; i += height) {
+        float products[width][height];
+        multiply_tile(a, i, b, j, begin, end, products);
+        for (std::size_t column = 0; column < width && j + column < b.count; ++column)
+          for (std::size_t row = 0; row < height && i + row < a.count; ++row)
+            result[(j + column) * stride + i + row] += static_cast<double>(products[column][row]);
+      }
+  }
+}
+
+}  // namespace ltc::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ltc::kernels {
+
+HWY_EXPORT(MultiplyTransposed);
+
+void multiply_transposed(const Columns& a, const Columns& b, double* result, std::size_t stride) {
+  HWY_DYNAMIC_DISPATCH(MultiplyTransposed)(a, b, result, stride);
+}
+
+}  // namespace ltc::kernels
+#endif
