@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/spread.h"
 #include "table/reduction.h"
 
 namespace ltc {
@@ -143,12 +144,14 @@ Eigen::MatrixXf FieldSystem::values_at(const Eigen::VectorXd& coefficients,
 double FieldSystem::evaluate(const Eigen::VectorXd& coefficients, const RunContext& run) {
   const Eigen::MatrixXf values = values_at(coefficients, run);
   // The loss at the model in use tells each query's smoothing.
-  parallel_for<QueryMeter::Buffers>(
-      size(), run, [] { return QueryMeter::Buffers(); },
+  spread_for<QueryMeter::Buffers>(
+      Spreading::kept, size(), run, [] { return QueryMeter::Buffers(); },
       [&](std::size_t q, QueryMeter::Buffers& buffers) {
         evaluate_query(q, values.col(static_cast<Eigen::Index>(q)).cast<double>(), buffers);
         run.advance();
-      });
+      },
+      [&](std::size_t q, auto&& take) { take(bytes_of(evaluated_[q])); },
+      [&](std::size_t) { run.advance(); });
   return std::accumulate(evaluated_.begin(), evaluated_.end(), 0.0,
                          [](double sum, const Model& model) { return sum + model.loss; });
 }
@@ -196,8 +199,8 @@ Eigen::VectorXd FieldSystem::nearest_to(const std::vector<Eigen::Matrix3d>& fitt
                                         const RunContext& run) {
   // The cost of values f beside the fit's is cost + gradient . f + f . curvature f / 2.
   std::vector<double> cost(size()), weights(size(), 1.0);
-  parallel_for<QueryMeter::Buffers>(
-      size(), run, [] { return QueryMeter::Buffers(); },
+  spread_for<QueryMeter::Buffers>(
+      Spreading::kept, size(), run, [] { return QueryMeter::Buffers(); },
       [&](std::size_t q, QueryMeter::Buffers& buffers) {
         const Query& query = queries_[q];
         const LobeFrame frame(query.at.lobe);
@@ -212,7 +215,12 @@ Eigen::VectorXd FieldSystem::nearest_to(const std::vector<Eigen::Matrix3d>& fitt
         value.gradient = -bent;
         set_model(models_[q], query.directions, share, value);
         cost[q] = 0.5 * share * wanted.dot(bent);
-      });
+      },
+      [&](std::size_t q, auto&& take) {
+        take(bytes_of(models_[q]));
+        take(bytes_of(cost[q]));
+      },
+      [](std::size_t) {});
   Eigen::VectorXd coefficients;
   for (int round = 0; round < start_rounds; ++round) {
     Equations sums = assemble(weights, run);
