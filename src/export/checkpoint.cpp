@@ -93,8 +93,8 @@ std::vector<std::uint8_t> flags_of(const std::vector<bool>& needed) {
 
 void require_format(const Hdf5Input& file, const std::string& expected, const fs::path& path) {
   if (const std::string format = file.text(root, "format"); format != expected)
-    refuse(path, fmt::format("attribute format is \"{}\"; allowed: \"{}\"; {}", format, expected,
-                             way_out));
+    refuse(path, fmt::format("attribute format is \"{}\"; allowed: \"{}\"{}", format, expected,
+                             expected == checkpoint_format ? fmt::format("; {}", way_out) : ""));
   if (const std::int64_t version = file.integer(root, "format_version");
       version != checkpoint_format_version)
     refuse(path, fmt::format("attribute format_version is {}; allowed: {}; {}", version,

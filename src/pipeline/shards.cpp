@@ -77,29 +77,38 @@ class Faults {
   std::vector<std::string> texts_;
 };
 
-// The file of each shard by its number; `count` becomes that of all.
-std::map<int, fs::path> files_by_number(const std::vector<fs::path>& files, int& count,
-                                        Faults& faults) {
+// The file of each shard by its number, none where that is at fault; `count` becomes that of all.
+std::map<int, fs::path> files_by_number(const Config& config, const std::vector<fs::path>& files,
+                                        int& count, Faults& faults) {
   std::map<int, fs::path> found;
   fs::path first;
   for (const fs::path& file : files) {
-    std::optional<Shard> shard;
+    ShardHeader header;
     try {
-      shard = read_shard_header(file).shard;
+      header = read_shard_header(file);
     } catch (const InputError& error) {
       faults.add("{}", error.what());
       continue;
     }
     if (found.empty()) {
-      count = shard->count;
+      count = header.shard.count;
       first = file;
     }
-    if (shard->count != count)
-      faults.add("{} is of {} shards, {} of {}", file.string(), shard->count, first.string(),
+    if (header.shard.count != count) {
+      faults.add("{} is of {} shards, {} of {}", file.string(), header.shard.count, first.string(),
                  count);
-    else if (const auto [at, is_new] = found.try_emplace(shard->number, file); !is_new)
-      faults.add("shard {} of {} is there twice: {} and {}", shard->number, count,
+      continue;
+    }
+    const auto [at, is_new] = found.try_emplace(header.shard.number, file);
+    if (!is_new)
+      faults.add("shard {} of {} is there twice: {} and {}", header.shard.number, count,
                  at->second.string(), file.string());
+    // One of another run has its place all the same: it is not missing, but wrong.
+    if (const auto difference = first_difference(config, header.config, file)) {
+      faults.add("{} was made with {} = {}; expected {}", file.string(), difference->key,
+                 difference->other.empty() ? "nothing" : difference->other, difference->value);
+      at->second.clear();
+    }
   }
   return found;
 }
@@ -157,7 +166,7 @@ FinishedFits merged_shards(const Config& config, const std::vector<bool>& needed
                            const std::vector<fs::path>& files, const std::string& resume_name) {
   Faults faults;
   int count = 0;
-  const std::map<int, fs::path> found = files_by_number(files, count, faults);
+  const std::map<int, fs::path> found = files_by_number(config, files, count, faults);
   for (int number = 1; number <= count; ++number) {
     const int first = number;
     while (number <= count && !found.contains(number))
@@ -171,7 +180,8 @@ FinishedFits merged_shards(const Config& config, const std::vector<bool>& needed
   // Each round in its place: what is not finished there has no values.
   FinishedFits all = FitJournal(config.grid.size(), sweep_count(config.fit)).finished();
   for (const auto& [number, file] : found)
-    add_shard(config, needed, plan, {number, count}, file, resume_name, all, faults);
+    if (!file.empty())
+      add_shard(config, needed, plan, {number, count}, file, resume_name, all, faults);
   faults.require_none();
   return all;
 }
