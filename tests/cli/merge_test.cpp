@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using namespace runs;
 
 const Arguments quick = tiny + Arguments{"--set", "refine.queries_per_cell=16",
-                                         "--set", "refine.held_out_queries=50",
+                                         "--set", "refine.held_out_queries=100",
                                          "--set", "refine.steps=2"};
 
 std::string name_of(int number, int count) {
