@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "core/parallel.h"
@@ -165,9 +166,10 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
   for (std::size_t a = 0; a < parts; ++a)
     for (std::size_t b = a; b < parts; ++b)
       blocks.emplace_back(a, b);
+  const auto size_of = [&](std::size_t part) { return first_[part + 1] - first_[part]; };
   // One block is one thread's: sums have a fixed order.
-  parallel_for<Eigen::MatrixXf>(
-      blocks.size(), run, [] { return Eigen::MatrixXf(); },
+  spread_for<Eigen::MatrixXf>(
+      Spreading::moving, blocks.size(), run, [] { return Eigen::MatrixXf(); },
       [&](std::size_t i, Eigen::MatrixXf& weighted) {
         const auto [a, b] = blocks[i];
         const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
@@ -180,14 +182,30 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
         }
         weighted.noalias() = curvature.asDiagonal() * rows_[b];
         const Eigen::MatrixXf block = rows_[a].transpose() * weighted;
-        result.curvature.block(first_[a], first_[b], block.rows(), block.cols()) =
-            block.cast<double>();
-        result.curvature.block(first_[b], first_[a], block.cols(), block.rows()) =
+        if (a != b) {
+          result.curvature.block(first_[a], first_[b], block.rows(), block.cols()) =
+              block.cast<double>();
+          return;
+        }
+        result.curvature.block(first_[a], first_[a], block.cols(), block.rows()) =
             block.transpose().cast<double>();
+        result.gradient.segment(first_[a], block.rows()) =
+            rows_[a].transpose().cast<double>() * gradient;
+      },
+      [&](std::size_t i, auto&& take) {
+        const auto [a, b] = blocks[i];
+        const auto rows = static_cast<std::size_t>(size_of(a));
+        for (Eigen::Index column = first_[b]; column < first_[b + 1]; ++column)
+          take(std::as_writable_bytes(
+              std::span(result.curvature.col(column).data() + first_[a], rows)));
         if (a == b)
-          result.gradient.segment(first_[a], block.rows()) =
-              rows_[a].transpose().cast<double>() * gradient;
-      });
+          take(std::as_writable_bytes(std::span(result.gradient.data() + first_[a], rows)));
+      },
+      [](std::size_t) {});
+  for (const auto& [a, b] : blocks)
+    if (a != b)
+      result.curvature.block(first_[b], first_[a], size_of(b), size_of(a)) =
+          result.curvature.block(first_[a], first_[b], size_of(a), size_of(b)).transpose();
   return result;
 }
 
