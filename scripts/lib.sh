@@ -15,6 +15,7 @@ build_packages=(
 # snippets with; drivers without a GPU and a browser, which they run shaders on.
 test_packages=(
   libgtest-dev libbenchmark-dev hdf5-tools openexr openscenegraph python3-h5py glslang-tools zsh fish
+  libopenmpi-dev openmpi-bin
   libegl-dev libgles-dev libgl1-mesa-dri libvulkan-dev mesa-vulkan-drivers chromium
 )
 

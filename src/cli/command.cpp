@@ -10,6 +10,7 @@ namespace ltc::cli {
 
 // One a file of the same name.
 Action declare_generate(CLI::App& app);
+Action declare_merge(CLI::App& app);
 Action declare_fit(CLI::App& app);
 Action declare_diff(CLI::App& app);
 Action declare_validate(CLI::App& app);
@@ -37,7 +38,9 @@ void add_help_option(CLI::App& app) {
 std::span<const Command> commands() {
   static constexpr Command all[] = {
       {"generate", "Make a table", "fit a table and write it as HDF5, OpenEXR and NPY",
-       declare_generate},
+       declare_generate, true},
+      {"merge", "Make a table", "put the shards of a table together and make the rest of it",
+       declare_merge, true},
       {"fit", "Look into one lobe",
        "fit one entry or lobe and show every step, matrix and loss, and a picture", declare_fit},
       {"diff", "Compare and validate tables",

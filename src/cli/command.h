@@ -22,6 +22,7 @@ struct Command {
   const char* summary;  // one line
   // Declares the options on `app` and returns the action that uses them.
   Action (*declare)(CLI::App& app);
+  bool is_shared = false;  // by the ranks of a launcher; otherwise one of them does it
 };
 
 // In the order of --help.

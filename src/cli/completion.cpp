@@ -222,8 +222,8 @@ std::string zsh_script(const std::vector<CommandWords>& all) {
     for (const Word& option : command.options)
       text += zsh_option(option);
     for (const Word& argument : command.arguments)
-      text += fmt::format(" \\\n        ':{}:{}'", zsh_text(argument.description),
-                          zsh_values(argument));
+      text += fmt::format(" \\\n        '{}:{}:{}'", argument.repeats ? "*" : "",
+                          zsh_text(argument.description), zsh_values(argument));
     text += "\n      ;;\n";
   }
   // A function of a folder in $fpath, or sourced.

@@ -61,8 +61,10 @@ HelpEntry& add_entry(std::vector<HelpGroup>& groups, const std::string& title, H
 std::string usage_text(const CLI::App& app) {
   std::string text = app.get_name() + " [OPTION]...";
   for (const CLI::Option* option : app.get_options())
-    if (option->get_positional())
+    if (option->get_positional()) {
       text += option->get_required() ? " " + option->get_name() : " [" + option->get_name() + "]";
+      text += option->get_items_expected_max() > 1 ? "..." : "";
+    }
   return text;
 }
 

@@ -43,7 +43,7 @@ class Patience {
 
 }  // namespace
 
-StopOnInterrupt::StopOnInterrupt(Progress& progress) {
+StopOnInterrupt::StopOnInterrupt(Progress& progress, bool speaks) : speaks_(speaks) {
   interruptible = &progress;
   platform::on_interrupt(stop_interruptible);
   watcher_ = std::thread([this] { watch(); });
@@ -79,10 +79,10 @@ void StopOnInterrupt::watch() {
 
 void StopOnInterrupt::end_process() {
   const std::lock_guard lock(mutex_);
-  platform::end_process(
-      exit_code,
-      fmt::format("ltcfit: {}\n", one_line(with_way_on("interrupted, and ended in mid-work",
-                                                       checkpoint_, "--resume"))));
+  const std::string way_on =
+      with_way_on("interrupted, and ended in mid-work", checkpoint_, "--resume");
+  platform::end_process(exit_code,
+                        speaks_ ? fmt::format("ltcfit: {}\n", one_line(way_on)) : std::string());
 }
 
 }  // namespace ltc::cli

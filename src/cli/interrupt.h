@@ -22,7 +22,8 @@ class StopOnInterrupt {
  public:
   static constexpr int exit_code = 130;
 
-  explicit StopOnInterrupt(Progress& progress);
+  // Of several ranks one `speaks` of a process that is ended.
+  explicit StopOnInterrupt(Progress& progress, bool speaks = true);
   ~StopOnInterrupt();
   StopOnInterrupt(const StopOnInterrupt&) = delete;
   StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
@@ -35,6 +36,7 @@ class StopOnInterrupt {
   [[noreturn]] void end_process();
 
   EndOfWork end_;
+  const bool speaks_;
   std::atomic<bool> closed_{false};
   std::mutex mutex_;
   std::filesystem::path checkpoint_;

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +18,7 @@
 #include "cli/command.h"
 #include "cli/help.h"
 #include "cli/interrupt.h"
+#include "cli/launch.h"
 #include "cli/output.h"
 #include "core/error.h"
 #include "core/platform.h"
@@ -32,11 +36,6 @@ enum ExitCode {
 };
 
 using Arguments = std::span<const char* const>;
-
-int report(ExitCode code, std::string_view message) {
-  tell(fmt::format("ltcfit: {}\n", one_line(message)));
-  return code;
-}
 
 std::string command_names() {
   std::string all;
@@ -68,22 +67,63 @@ void run_without_command(Arguments arguments) {
   }
 }
 
+// Of several ranks one does what cannot be shared.
 void run_command(const Command& command, Arguments arguments) {
+  if (!command.is_shared && !is_first(launched_ranks()))
+    return;
   const DeclaredCommand declaration = declared(command);
   if (read_arguments(*declaration.app, arguments) == Request::help) {
-    print(command_help(*declaration.app, platform::terminal_columns()));
+    if (is_first(launched_ranks()))
+      print(command_help(*declaration.app, platform::terminal_columns()));
     return;
   }
   Files files;
-  tell_files(*declaration.app, files);
+  if (is_first(launched_ranks()))
+    tell_files(*declaration.app, files);
   declaration.action(files);
 }
 
 void run(Arguments arguments) {
   if (!arguments.empty() && arguments[0][0] != '-')
     run_command(command_named(arguments[0]), arguments.subspan(1));
-  else
+  else if (is_first(launched_ranks()))
     run_without_command(arguments);
+}
+
+// What becomes of the work, as the process says it at its end.
+RankEnd end_of(const std::function<void()>& work) {
+  try {
+    work();
+    return {success, ""};
+  } catch (const InputError& error) {
+    return {bad_input, error.what()};
+  } catch (const IoError& error) {
+    return {io_failure, error.what()};
+  } catch (const Interrupted& error) {
+    return {interrupted, error.what()};
+  } catch (const CheckFailure& error) {
+    return {failure, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {io_failure, "out of memory; a table with fewer nodes needs less"};
+  } catch (const std::exception& error) {
+    return {failure, error.what()};
+  }
+}
+
+int report(const RankEnd& end) {
+  if (end.exit_code != success)
+    tell(fmt::format("ltcfit: {}\n", one_line(end.message)));
+  return end.exit_code;
+}
+
+// Alone, or as one of several ranks, of which the first one tells what became of all.
+int run_launched(const std::optional<LaunchedAs>& launched, Arguments arguments) {
+  const Launch launch(launched);
+  RankEnd end = end_of([&] { run(arguments); });
+  Ranks* const ranks = launched_ranks();
+  if (ranks)
+    end = agree_on_end(*ranks, end, interrupted);
+  return is_first(ranks) ? report(end) : end.exit_code;
 }
 
 }  // namespace
@@ -92,23 +132,18 @@ void run(Arguments arguments) {
 int main(int argument_count, char** arguments) {
   using namespace ltc;
   using namespace ltc::cli;
-  try {
+  const std::optional<LaunchedAs> launched =
+      launched_as([](const char* name) { return std::getenv(name); });
+  int exit_code = success;
+  const RankEnd end = end_of([&] {
     platform::occupy_closed_standard_streams();
     platform::report_failed_writes_as_errors();
     const auto count = static_cast<std::size_t>(std::max(argument_count, 1));
-    run({arguments + 1, count - 1});  // without the program's own name
-    return success;
-  } catch (const InputError& error) {
-    return report(bad_input, error.what());
-  } catch (const IoError& error) {
-    return report(io_failure, error.what());
-  } catch (const Interrupted& error) {
-    return report(interrupted, error.what());
-  } catch (const CheckFailure& error) {
-    return report(failure, error.what());
-  } catch (const std::bad_alloc&) {
-    return report(io_failure, "out of memory; a table with fewer nodes needs less");
-  } catch (const std::exception& error) {
-    return report(failure, error.what());
-  }
+    // Without the program's own name.
+    exit_code = run_launched(launched, {arguments + 1, count - 1});
+  });
+  if (end.exit_code == success)
+    return exit_code;
+  // None were joined: that one speaks is enough.
+  return launched && launched->rank != 0 ? success : report(end);
 }

@@ -6,6 +6,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
@@ -23,12 +24,14 @@ inline int processor_count() {
   return omp_get_num_procs();
 }
 
-// Calls work(i, state) for i in [0, count), each thread with a state of its own from make_state(),
-// as a part of a stage that is under way: nothing is counted. `work` may write only to what belongs
-// to i, so that the result does not depend on the number of threads. The first exception ends the
-// work and is thrown again here; a stop that is asked for is thrown as Interrupted.
-template <typename State, typename MakeState, typename Work>
-void parallel_for(std::size_t count, const RunContext& run, MakeState&& make_state, Work&& work) {
+// Calls work(i, state) for i from 0 on, below count and as long as go_on() holds, each thread with
+// a state of its own from make_state(), as a part of a stage that is under way: nothing is counted.
+// Returns how many of the first were done. `work` may write only to what belongs to i, so that the
+// result does not depend on the number of threads. The first exception ends the work and is thrown
+// again here; a stop that is asked for is thrown as Interrupted.
+template <typename State, typename MakeState, typename Work, typename GoOn>
+std::size_t parallel_while(std::size_t count, const RunContext& run, MakeState&& make_state,
+                           Work&& work, GoOn&& go_on) {
   std::exception_ptr failure;
   std::mutex failure_mutex;
   std::atomic<bool> failed{false};
@@ -38,8 +41,9 @@ void parallel_for(std::size_t count, const RunContext& run, MakeState&& make_sta
     try {
       State state = make_state();
       // Taken one by one: entries differ in cost by far more than a counter does.
-      for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
-        if (failed.load(std::memory_order_relaxed) || run.stop_requested())
+      while (!failed.load(std::memory_order_relaxed) && !run.stop_requested() && go_on()) {
+        const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+        if (i >= count)
           break;
         work(i, state);
       }
@@ -53,6 +57,13 @@ void parallel_for(std::size_t count, const RunContext& run, MakeState&& make_sta
   if (failure)
     std::rethrow_exception(failure);
   run.throw_if_stopped();
+  return std::min(next.load(), count);
+}
+
+// The same for all i in [0, count).
+template <typename State, typename MakeState, typename Work>
+void parallel_for(std::size_t count, const RunContext& run, MakeState&& make_state, Work&& work) {
+  parallel_while<State>(count, run, make_state, work, [] { return true; });
 }
 
 // As above, for work(i) that needs no state, is too short to be taken one by one and throws

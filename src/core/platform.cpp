@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <semaphore.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
@@ -293,11 +294,11 @@ void remove_abandoned_temporaries(const fs::path& path) {
     ::unlink(temporary.c_str());
 }
 
-FolderLock::FolderLock(const fs::path& folder)
+FolderLock::FolderLock(const fs::path& folder, bool shared)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0)
     throw_io("cannot open output folder", folder, errno);
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+  if (::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK)
     return;
   ::close(descriptor_);
   throw IoError(
@@ -469,6 +470,17 @@ std::size_t available_memory_bytes() {
     bound(limit.rlim_cur - std::min<std::size_t>(limit.rlim_cur, *used * page));
   }
   return available;
+}
+
+std::vector<std::uint8_t> allowed_processors() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (::sched_getaffinity(0, sizeof(allowed), &allowed) != 0)
+    CPU_ZERO(&allowed);
+  std::vector<std::uint8_t> flags;
+  for (std::size_t processor = 0; processor < CPU_SETSIZE; ++processor)
+    flags.push_back(CPU_ISSET(processor, &allowed) ? 1 : 0);
+  return flags;
 }
 
 double processor_seconds() {

@@ -56,8 +56,9 @@ void remove_abandoned_temporaries(const std::filesystem::path& path);
 // it. On a file system without locks it does nothing.
 class FolderLock {
  public:
-  // Throws IoError if another process has the lock or the folder cannot be opened.
-  explicit FolderLock(const std::filesystem::path& folder);
+  // With `shared`, others that ask so may work there too. Throws IoError if another process has the
+  // lock or the folder cannot be opened.
+  explicit FolderLock(const std::filesystem::path& folder, bool shared = false);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -125,6 +126,10 @@ std::size_t peak_memory_bytes();
 // machine, its control group and the limit on its address space leave. The largest number there is
 // where the system does not say.
 std::size_t available_memory_bytes();
+
+// One flag for each processor of the machine, up to some number that is the same everywhere:
+// whether this process may use it. All 0 where the system does not say.
+std::vector<std::uint8_t> allowed_processors();
 
 // Seconds of processor time this process has used, all threads together.
 double processor_seconds();

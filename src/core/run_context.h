@@ -10,9 +10,13 @@
 
 namespace ltc {
 
+class Ranks;  // core/ranks.h
+
 struct RunContext {
   int threads = 1;               // at least 1; results have the same bits for any number
   Progress* progress = nullptr;  // null: nobody watches, and nobody asks for a stop
+  Ranks* ranks = nullptr;        // who shares the work; null: this process alone. Never of less
+                                 // than the whole run: all ranks have to come to the same places
 
   bool stop_requested() const { return progress && progress->stop_requested(); }
   // Throws Interrupted once a stop was requested. Not from inside a parallel region.

@@ -91,14 +91,35 @@ std::vector<std::uint8_t> flags_of(const std::vector<bool>& needed) {
   return {needed.begin(), needed.end()};
 }
 
-void require_format(const Hdf5Input& file, const fs::path& path) {
-  if (const std::string format = file.text(root, "format"); format != checkpoint_format)
-    refuse(path, fmt::format("attribute format is \"{}\"; allowed: \"{}\"; {}", format,
-                             checkpoint_format, way_out));
+void require_format(const Hdf5Input& file, const std::string& expected, const fs::path& path) {
+  if (const std::string format = file.text(root, "format"); format != expected)
+    refuse(path, fmt::format("attribute format is \"{}\"; allowed: \"{}\"{}", format, expected,
+                             expected == checkpoint_format ? fmt::format("; {}", way_out) : ""));
   if (const std::int64_t version = file.integer(root, "format_version");
       version != checkpoint_format_version)
     refuse(path, fmt::format("attribute format_version is {}; allowed: {}; {}", version,
                              checkpoint_format_version, way_out));
+}
+
+Shard shard_in(const Hdf5Input& file, const fs::path& path) {
+  const std::int64_t number = file.integer(root, "shard"), count = file.integer(root, "shards");
+  if (number < 1 || number > count || count > most_shards)
+    refuse(path, fmt::format("of shard {} of {}; allowed: 1 to their number, up to {}; {}", number,
+                             count, most_shards, way_out));
+  return {static_cast<int>(number), static_cast<int>(count)};
+}
+
+void require_same_shard(const Hdf5Input& file, const Shard& shard, const fs::path& path) {
+  if (const Shard found = shard_in(file, path);
+      found.number != shard.number || found.count != shard.count)
+    refuse(path, fmt::format("of shard {} of {}; expected {} of {}; {}", found.number, found.count,
+                             shard.number, shard.count, way_out));
+}
+
+ShardHeader read_shard_header_unguarded(const fs::path& path) {
+  const Hdf5Input file(path);
+  require_format(file, shard_format, path);
+  return {shard_in(file, path), file.text(root, "config")};
 }
 
 // Fits of another program, config or set of entries would make a table that no run makes.
@@ -122,14 +143,19 @@ void require_same_run(const Hdf5Input& file, const Config& config, const std::ve
 }  // namespace
 
 void write_checkpoint(const Config& config, const std::vector<bool>& needed,
-                      const FinishedFits& fits, const fs::path& path) {
+                      const FinishedFits& fits, const fs::path& path,
+                      const std::optional<Shard>& shard) {
   const Arrays arrays = to_arrays(fits);
   const std::size_t rounds = fits.rounds.size(), listed = arrays.entry.size();
   Hdf5Output file(path.string());
-  file.text(root, "format", checkpoint_format);
+  file.text(root, "format", shard ? shard_format : checkpoint_format);
   file.number(root, "format_version", std::int32_t{checkpoint_format_version});
   file.text(root, "generator", generator());
   file.text(root, "config", to_toml(config));
+  if (shard) {
+    file.number(root, "shard", std::int32_t{shard->number});
+    file.number(root, "shards", std::int32_t{shard->count});
+  }
   file.values<std::uint8_t>("needed", {needed.size()}, flags_of(needed));
   file.group("fit");
   file.values<std::int32_t>("fit/entry", {listed}, arrays.entry);
@@ -141,9 +167,11 @@ void write_checkpoint(const Config& config, const std::vector<bool>& needed,
 }
 
 FinishedFits read_checkpoint_unguarded(const Config& config, const std::vector<bool>& needed,
-                                       const fs::path& path) {
+                                       const fs::path& path, const std::optional<Shard>& shard) {
   const Hdf5Input file(path);
-  require_format(file, path);
+  require_format(file, shard ? shard_format : checkpoint_format, path);
+  if (shard)
+    require_same_shard(file, *shard, path);
   require_same_run(file, config, needed, path);
   const std::size_t rounds = 1 + static_cast<std::size_t>(sweep_count(config.fit));
   const std::vector<std::size_t> shape = file.shape("fit/entry");
@@ -165,9 +193,14 @@ FinishedFits read_checkpoint_unguarded(const Config& config, const std::vector<b
 }
 
 FinishedFits read_checkpoint(const Config& config, const std::vector<bool>& needed,
-                             const fs::path& path) {
-  require_harmless(path, [&] { read_checkpoint_unguarded(config, needed, path); });
-  return read_checkpoint_unguarded(config, needed, path);
+                             const fs::path& path, const std::optional<Shard>& shard) {
+  require_harmless(path, [&] { read_checkpoint_unguarded(config, needed, path, shard); });
+  return read_checkpoint_unguarded(config, needed, path, shard);
+}
+
+ShardHeader read_shard_header(const fs::path& path) {
+  require_harmless(path, [&] { read_shard_header_unguarded(path); });
+  return read_shard_header_unguarded(path);
 }
 
 }  // namespace ltc

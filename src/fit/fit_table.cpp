@@ -6,11 +6,14 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <numeric>
+#include <string>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/spread.h"
 #include "fit/fit_journal.h"
 #include "fit/lobe_frame.h"
 #include "table/symmetry.h"
@@ -18,14 +21,25 @@
 namespace ltc {
 namespace {
 
-// Takes the results that the journal knows; what is left to be fitted.
+// Takes the results that the journal of the first rank knows; what is left to be fitted.
 std::vector<std::size_t> recall_known(const FitJournal* journal, int round,
-                                      const std::vector<std::size_t>& to_fit,
+                                      const std::vector<std::size_t>& to_fit, const RunContext& run,
                                       std::vector<FittedEntry>& results) {
+  std::string is_known, known;
+  for (const std::size_t flat : to_fit) {
+    is_known += journal && journal->recall(round, flat, results[flat]) ? 'k' : 'u';
+    if (run.ranks && is_known.back() == 'k')
+      append_bytes(results[flat], known);
+  }
+  share_from_first(run.ranks, is_known);
+  share_from_first(run.ranks, known);
   std::vector<std::size_t> unknown;
-  for (const std::size_t flat : to_fit)
-    if (!journal || !journal->recall(round, flat, results[flat]))
-      unknown.push_back(flat);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < to_fit.size(); ++i)
+    if (is_known[i] == 'u')
+      unknown.push_back(to_fit[i]);
+    else if (run.ranks)
+      at += take_bytes(known, at, results[to_fit[i]]);
   return unknown;
 }
 
@@ -46,6 +60,66 @@ std::vector<std::size_t> spread_out(const std::vector<std::size_t>& entries) {
 // Steps of the watched entry go to its watch, those of the others nowhere.
 std::vector<FitStep>* trace_of(FitWatch* watch, std::size_t flat) {
   return watch && watch->entry == flat ? &watch->fits.back().steps : nullptr;
+}
+
+// One fit of each entry of a list, whatever its request is.
+class FitRounds {
+ public:
+  FitRounds(const Grid& grid, const FitSettings& settings, const RunContext& run, FitWatch* watch,
+            FitJournal* journal)
+      : grid_(grid),
+        seed_(settings.seed),
+        run_(run),
+        watch_(watch),
+        journal_(journal),
+        solver_(make_solver(settings)),
+        equal_(grid) {}
+
+  FitRequest plain_request(std::size_t flat) const {
+    return {grid_.lobe(flat), entry_seed(seed_, equal_.first_of(flat)), {}, {}, run_.progress};
+  }
+
+  void fit_all(std::string_view stage, int round, const std::vector<std::size_t>& to_fit,
+               const std::function<FitRequest(std::size_t)>& request,
+               std::vector<FittedEntry>& results) const {
+    const std::vector<std::size_t> unknown =
+        spread_out(recall_known(journal_, round, to_fit, run_, results));
+    // A stop ends a fit early, with whatever it has.
+    const auto note = [&](std::size_t i) {
+      if (journal_ && !run_.stop_requested())
+        journal_->note(round, unknown[i], results[unknown[i]]);
+    };
+    spread_for_each<FitWorkspacePointer>(
+        stage, Spreading::moving, unknown.size(), run_, make_fit_workspace,
+        [&](std::size_t i, FitWorkspacePointer& workspace) {
+          const std::size_t flat = unknown[i];
+          fit_entry(*solver_, request(flat), *workspace, trace_of(watch_, flat), results[flat]);
+          note(i);
+        },
+        [&](std::size_t i, auto&& take) { take(bytes_of(results[unknown[i]])); }, note);
+  }
+
+ private:
+  const Grid& grid_;
+  const std::uint64_t seed_;
+  const RunContext run_;
+  FitWatch* const watch_;
+  FitJournal* const journal_;
+  const std::unique_ptr<Solver> solver_;
+  const EqualLobes equal_;
+};
+
+std::vector<std::size_t> entries_to_fit(const std::vector<PlannedEntry>& plan) {
+  std::vector<std::size_t> to_fit;
+  for (std::size_t flat = 0; flat < plan.size(); ++flat)
+    if (plan[flat].representative == flat)
+      to_fit.push_back(flat);
+  return to_fit;
+}
+
+void require_plain(const FitSettings& settings) {
+  if (settings.lobe == LobeKind::folded)
+    throw InputError("fit.lobe = \"folded\" for entries of a table; expected \"single\"");
 }
 
 }  // namespace
@@ -116,39 +190,15 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
                                    const std::vector<PlannedEntry>& plan, const RunContext& run,
                                    FitWatch* watch, FitJournal* journal) {
-  if (settings.lobe == LobeKind::folded)
-    throw InputError("fit.lobe = \"folded\" for entries of a table; expected \"single\"");
-  const std::unique_ptr<Solver> solver = make_solver(settings);
-  const EqualLobes equal(grid);
-  std::vector<std::size_t> to_fit;
-  for (std::size_t flat = 0; flat < plan.size(); ++flat)
-    if (plan[flat].representative == flat)
-      to_fit.push_back(flat);
-
+  require_plain(settings);
+  const FitRounds rounds(grid, settings, run, watch, journal);
+  std::vector<std::size_t> to_fit = entries_to_fit(plan);
   std::vector<FittedEntry> entries(grid.size());
-  const auto fit_all = [&](std::string_view stage, int round,
-                           const std::function<FitRequest(std::size_t)>& request,
-                           std::vector<FittedEntry>& results) {
-    const std::vector<std::size_t> unknown =
-        spread_out(recall_known(journal, round, to_fit, results));
-    parallel_for_each<FitWorkspacePointer>(stage, unknown.size(), run, make_fit_workspace,
-                                           [&](std::size_t i, FitWorkspacePointer& workspace) {
-                                             const std::size_t flat = unknown[i];
-                                             fit_entry(*solver, request(flat), *workspace,
-                                                       trace_of(watch, flat), results[flat]);
-                                             // A stop ends a fit early, with whatever it has.
-                                             if (journal && !run.stop_requested())
-                                               journal->note(round, flat, results[flat]);
-                                           });
-    copy_by_symmetry(plan, run, results);
-  };
-  const auto plain_request = [&](std::size_t flat) {
-    return FitRequest{
-        grid.lobe(flat), entry_seed(settings.seed, equal.first_of(flat)), {}, {}, run.progress};
-  };
+  const auto plain_request = [&](std::size_t flat) { return rounds.plain_request(flat); };
   if (watch)
     watch->fits.assign(1, {});
-  fit_all("fit", 0, plain_request, entries);
+  rounds.fit_all("fit", 0, to_fit, plain_request, entries);
+  copy_by_symmetry(plan, run, entries);
   // Nothing that samples could tell is better than a closed form.
   std::erase_if(to_fit, [&](std::size_t flat) { return entries[flat].status == Status::analytic; });
   const bool watching = watch && entries[watch->entry].status != Status::analytic;
@@ -157,8 +207,8 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
     if (watching)
       watch->fits.push_back(
           {sweep, neighbour_starts(grid, watch->entry, entries).size(), {}, false});
-    fit_all(
-        "sweep", sweep,
+    rounds.fit_all(
+        "sweep", sweep, to_fit,
         [&](std::size_t flat) {
           FitRequest request = plain_request(flat);
           request.starts = neighbour_starts(grid, flat, entries);
@@ -168,11 +218,32 @@ std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings
           return request;
         },
         improved);
+    copy_by_symmetry(plan, run, improved);
     if (watching)
       watch->fits.back().improved = improved[watch->entry].loss < entries[watch->entry].loss;
     entries = std::move(improved);
   }
   return entries;
+}
+
+std::vector<std::size_t> entries_of_shard(const std::vector<PlannedEntry>& plan,
+                                          const Shard& shard) {
+  const std::vector<std::size_t> all = spread_out(entries_to_fit(plan));
+  std::vector<std::size_t> share;
+  for (auto i = static_cast<std::size_t>(shard.number - 1); i < all.size();
+       i += static_cast<std::size_t>(shard.count))
+    share.push_back(all[i]);
+  return share;
+}
+
+void fit_shard(const Grid& grid, const FitSettings& settings, const std::vector<PlannedEntry>& plan,
+               const Shard& shard, const RunContext& run, FitJournal* journal) {
+  require_plain(settings);
+  const FitRounds rounds(grid, settings, run, nullptr, journal);
+  std::vector<FittedEntry> entries(grid.size());
+  rounds.fit_all(
+      "fit", 0, entries_of_shard(plan, shard),
+      [&](std::size_t flat) { return rounds.plain_request(flat); }, entries);
 }
 
 }  // namespace ltc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Fits every entry of a grid that symmetry leaves to be fitted, on all threads.
+// Fits every entry of a grid that symmetry leaves to be fitted, on all threads of all ranks.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,7 +43,7 @@ class FitJournal;  // fit/fit_journal.h
 // entries of a sweep see the same state, so that neither order nor the number of threads matters.
 // Throws Interrupted when a stop is asked for, InputError for settings with a fold. `watch`, where
 // not null, gets the steps of its entry. `journal`, where not null, spares the fits that it knows
-// and learns of the others as they are finished.
+// and learns of the others as they are finished; of several ranks the first one's.
 std::vector<FittedEntry> fit_table(const Grid& grid, const FitSettings& settings,
                                    const std::vector<PlannedEntry>& plan, const RunContext& run,
                                    FitWatch* watch = nullptr, FitJournal* journal = nullptr);
@@ -59,6 +59,20 @@ Eigen::Matrix3d rounded_to_symmetry(const Lobe& lobe, Eigen::Matrix3d matrix);
 // Gives every entry that has another one as its representative that one's matrix, turned.
 void copy_by_symmetry(const std::vector<PlannedEntry>& plan, const RunContext& run,
                       std::vector<FittedEntry>& entries);
+
+// One of several parts of a table's own fits, which are made apart: number in [1, count].
+struct Shard {
+  int number = 1, count = 1;
+};
+inline constexpr int most_shards = 100000;
+
+// The fits of a shard: those of every count-th entry, in an order that takes from everywhere.
+std::vector<std::size_t> entries_of_shard(const std::vector<PlannedEntry>& plan,
+                                          const Shard& shard);
+
+// Makes them, as round 0 of fit_table would. `journal` as there. Throws as fit_table.
+void fit_shard(const Grid& grid, const FitSettings& settings, const std::vector<PlannedEntry>& plan,
+               const Shard& shard, const RunContext& run, FitJournal* journal);
 
 // How many sweeps the settings ask for: none but with the solver that has them.
 int sweep_count(const FitSettings& settings);

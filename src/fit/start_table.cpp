@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/parallel.h"
+#include "core/spread.h"
 #include "fit/arc_model.h"
 #include "fit/lobe_class.h"
 #include "fit/lobe_frame.h"
@@ -60,12 +60,13 @@ std::vector<FittedEntry> start_table(const Grid& grid, const std::vector<Planned
                                      const RunContext& run) {
   const Starts starts;
   std::vector<FittedEntry> entries(grid.size());
-  parallel_for_each<Starts::Workspace>(
-      "starts", plan.size(), run, [] { return Starts::Workspace(); },
+  spread_for_each<Starts::Workspace>(
+      "starts", Spreading::moving, plan.size(), run, [] { return Starts::Workspace(); },
       [&](std::size_t flat, Starts::Workspace& workspace) {
         if (plan[flat].representative == flat)
           entries[flat] = starts.of(grid.lobe(flat), workspace);
-      });
+      },
+      [&](std::size_t flat, auto&& take) { take(bytes_of(entries[flat])); });
   copy_by_symmetry(plan, run, entries);
   return entries;
 }

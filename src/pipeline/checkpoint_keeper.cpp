@@ -103,8 +103,12 @@ void CheckpointKeeper::write_if_new() {
   const std::size_t count = journal_.count();
   if (count == written_count_)
     return;
-  write_checkpoint(task_.config, task_.needed, journal_.finished(), task_.file);
+  write();
   written_count_ = count;
+}
+
+void CheckpointKeeper::write() const {
+  write_checkpoint(task_.config, task_.needed, journal_.finished(), task_.file, task_.shard);
 }
 
 bool CheckpointKeeper::exists() const {
@@ -125,12 +129,12 @@ std::unique_ptr<FitJournal> open_journal(const CheckpointTask& task, bool resume
   std::error_code ignored;
   const bool exists = fs::exists(task.file, ignored);
   if (exists && !resume)
-    throw InputError(
-        fmt::format("{} holds the fits of a run that did not end; go on with {}, or remove it to "
-                    "begin anew",
-                    task.file.string(), task.resume_name));
+    throw InputError(fmt::format(
+        "{} holds the fits of a {}; go on with {}, or remove it to begin anew", task.file.string(),
+        task.shard ? "shard" : "run that did not end", task.resume_name));
   if (exists)
-    return std::make_unique<FitJournal>(read_checkpoint(task.config, task.needed, task.file));
+    return std::make_unique<FitJournal>(
+        read_checkpoint(task.config, task.needed, task.file, task.shard));
   if (resume && warn)
     warn(fmt::format("no checkpoint {}; starting from the beginning", task.file.string()));
   return std::make_unique<FitJournal>(task.config.grid.size(), sweep_count(task.config.fit));

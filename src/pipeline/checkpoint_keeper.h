@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -24,8 +25,9 @@ struct CheckpointTask {
   std::filesystem::path file;
   const Config& config;
   const std::vector<bool>& needed;
-  double seconds = 5;       // between two of them; 0: none
-  std::string resume_name;  // the option that goes on from it, in messages
+  double seconds = 5;               // between two of them; 0: none
+  std::string resume_name;          // the option that goes on from it, in messages
+  std::optional<Shard> shard = {};  // of a shard's fits
 };
 
 // The message, and what goes on from this file if there is one.
@@ -45,6 +47,10 @@ class CheckpointKeeper {
   // Does the work of the run. Where it ends with an error and there is a checkpoint, brings that up
   // to date and adds to the message what goes on from it.
   void guard(const std::function<void()>& work);
+
+  // Writes it, whether there is anything new or not: the file of a shard that is done. After
+  // close().
+  void write() const;
 
   // No more of them are written. Throws IoError if one could not be. Before anything else uses
   // HDF5, which knows no threads.

@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/platform.h"
+#include "core/spread.h"
 #include "core/version.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
@@ -178,13 +179,19 @@ void measure_losses(const RunContext& run, Table& table) {
 void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
                        const RunContext& run, Table& table) {
   const AlbedoRule rule;
-  parallel_for_each("albedo", plan.size(), run, [&](std::size_t flat) {
-    if (plan[flat].representative != flat)
-      return;
-    const Albedo albedo = integrate_albedo(grid.lobe(flat), rule);
-    table.amplitude[flat] = static_cast<float>(albedo.amplitude);
-    table.fresnel[flat] = static_cast<float>(albedo.fresnel);
-  });
+  spread_for_each<int>(
+      "albedo", Spreading::moving, plan.size(), run, [] { return 0; },
+      [&](std::size_t flat, int) {
+        if (plan[flat].representative != flat)
+          return;
+        const Albedo albedo = integrate_albedo(grid.lobe(flat), rule);
+        table.amplitude[flat] = static_cast<float>(albedo.amplitude);
+        table.fresnel[flat] = static_cast<float>(albedo.fresnel);
+      },
+      [&](std::size_t flat, auto&& take) {
+        take(bytes_of(table.amplitude[flat]));
+        take(bytes_of(table.fresnel[flat]));
+      });
   for (std::size_t flat = 0; flat < plan.size(); ++flat) {
     if (plan[flat].representative == PlannedEntry::none)
       continue;
@@ -256,8 +263,8 @@ void fit_folded_nodes(const FitSettings& settings, const std::vector<bool>& chos
     request.progress = run.progress;
     return solver->fit(request, workspace, nullptr);
   };
-  parallel_for_each<FitWorkspacePointer>(
-      "fit", table.grid.size(), run, make_fit_workspace,
+  spread_for_each<FitWorkspacePointer>(
+      "fit", Spreading::moving, table.grid.size(), run, make_fit_workspace,
       [&](std::size_t flat, FitWorkspacePointer& workspace) {
         if (!chosen[flat] || first_of_same(table, flat) != flat)
           return;
@@ -269,6 +276,14 @@ void fit_folded_nodes(const FitSettings& settings, const std::vector<bool>& chos
         set_node(node, flat, table);
         table.sw_loss[flat] = static_cast<float>(result.loss);
         table.iterations[flat] = static_cast<std::uint16_t>(result.steps);
+      },
+      [&](std::size_t flat, auto&& take) {
+        for (std::size_t i = 0; i < 9; ++i)
+          take(bytes_of(table.stored[9 * flat + i]));
+        for (std::size_t i = 0; i < 2; ++i)
+          take(bytes_of(table.fold[2 * flat + i]));
+        take(bytes_of(table.sw_loss[flat]));
+        take(bytes_of(table.iterations[flat]));
       });
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat)
     if (chosen[flat] && first_of_same(table, flat) != flat) {
@@ -328,22 +343,25 @@ Cost cost_of(const Config& config, const std::vector<bool>& needed, const Refine
 
 // Better now than after hours, and better than to bring down the machine.
 void require_memory(const Config& config, const std::vector<bool>& needed,
-                    const RefineContext& context) {
+                    const RefineContext& context, int ranks_here) {
   const MemoryNeeded memory = memory_needed(config, needed, context);
-  const std::size_t available = platform::available_memory_bytes();
+  const std::size_t available =
+      platform::available_memory_bytes() / static_cast<std::size_t>(ranks_here);
   const auto gigabytes = [](std::size_t bytes) { return static_cast<double>(bytes) / 1e9; };
+  const std::string to_each =
+      ranks_here > 1 ? fmt::format(" to each of {} ranks", ranks_here) : std::string();
   if (memory.table > available)
     throw InputError(
         fmt::format("a table of {} entries needs about {:.3g} GB of memory, and {:.3g} GB are "
-                    "available; fewer nodes need less",
-                    config.grid.size(), gigabytes(memory.table), gigabytes(available)));
+                    "available{}; fewer nodes need less",
+                    config.grid.size(), gigabytes(memory.table), gigabytes(available), to_each));
   if (memory.table + memory.refinement > available)
     throw InputError(fmt::format(
         "refining a table of {} entries needs about {:.3g} GB of memory, and {:.3g} GB are "
-        "available; a smaller refine.queries_per_cell (here {}) or refine.directions (here {}) "
+        "available{}; a smaller refine.queries_per_cell (here {}) or refine.directions (here {}) "
         "needs less, refine.steps = 0 needs {:.3g} GB in all",
         config.grid.size(), gigabytes(memory.table + memory.refinement), gigabytes(available),
-        config.refine.queries_per_cell, config.refine.sampling.directions,
+        to_each, config.refine.queries_per_cell, config.refine.sampling.directions,
         gigabytes(memory.table)));
 }
 

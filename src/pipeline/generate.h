@@ -48,13 +48,13 @@ Cost cost_of(const Config& config, const std::vector<bool>& needed,
              const RefineContext& context = {});
 
 // Throws InputError, with what is needed and what there is, where making the table would take more
-// memory than is available.
+// memory than is available: so many times, by the ranks on this machine.
 void require_memory(const Config& config, const std::vector<bool>& needed,
-                    const RefineContext& context = {});
+                    const RefineContext& context = {}, int ranks_here = 1);
 
 // Makes the entries of `config`'s table that are `needed` (one flag a node). Throws InputError for
 // a config that cannot be met, Interrupted when a stop is asked for; does not ask for memory.
-// `journal` as for fit_table.
+// `journal` as for fit_table. Of several ranks (core/ranks.h) each has the whole table at the end.
 Table generate_table(const Config& config, const std::vector<bool>& needed, const RunContext& run,
                      GenerateReport* report, FitJournal* journal = nullptr,
                      const RefineContext& context = {});

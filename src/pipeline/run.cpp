@@ -11,57 +11,20 @@
 
 #include "core/error.h"
 #include "core/platform.h"
+#include "core/ranks.h"
 #include "core/stopwatch.h"
 #include "core/uninterrupted.h"
 #include "export/table_file.h"
 #include "judge/half_precision.h"
 #include "pipeline/checkpoint_keeper.h"
-#include "scene/coverage.h"
-#include "scene/query_ranges.h"
+#include "pipeline/shards.h"
+#include "pipeline/work.h"
 #include "table/extend.h"
 
 namespace ltc {
 namespace {
 
 namespace fs = std::filesystem;
-
-// What a scene and an existing table leave to do.
-struct Work {
-  std::vector<bool> needed;  // by the scene
-  std::vector<bool> to_fit;  // needed and not in the existing table
-  std::optional<Table> existing;
-  std::vector<QueryRange> asked;  // by the scene's materials; none without a scene
-
-  RefineContext refinement() const { return {asked, existing ? &*existing : nullptr}; }
-};
-
-Work plan_work(const RunRequest& request) {
-  const Config& config = request.config;
-  Work work;
-  work.needed.assign(config.grid.size(), true);
-  if (!request.scene.empty()) {
-    const Scene scene = load_scene(request.scene);
-    if (request.warn)
-      std::ranges::for_each(scene.warnings, request.warn);
-    work.needed = needed_entries(scene, config.grid);
-    work.asked = query_ranges(scene);
-  }
-  work.to_fit = work.needed;
-  if (!request.extend.empty()) {
-    if (config.field.size > 0)
-      throw InputError(
-          fmt::format("{}: a field is made as a whole; nothing extends it (field.size "
-                      "= {}; 0 for a table)",
-                      request.extend.string(), config.field.size));
-    if (!is_whole_table(request.extend))
-      throw InputError(fmt::format("{}: cannot be extended; expected a table's {}",
-                                   request.extend.string(), endings_text(keeps_fits)));
-    work.existing = read_table(request.extend);
-    require_extendable(*work.existing, request.extend.string(), config.grid, config.storage);
-    work.to_fit = lacking_entries(*work.existing, work.needed);
-  }
-  return work;
-}
 
 // Of the others those that are there: left in the folder, they would be of another table than the
 // files beside them. An input is not removed unasked.
@@ -173,6 +136,15 @@ void require_formats(const Config& config) {
   }
 }
 
+// The fits that there are: of the run that is resumed, or of shards.
+std::unique_ptr<FitJournal> journal_of(const RunRequest& request, const CheckpointTask& task) {
+  std::error_code ignored;
+  if (request.shards.empty() || fs::exists(task.file, ignored))
+    return open_journal(task, request.resume, request.warn);
+  return std::make_unique<FitJournal>(
+      merged_shards(request.config, task.needed, request.shards, request.resume_name));
+}
+
 // Fits the table and writes its files, or leaves a checkpoint to go on from.
 void make_files(const RunRequest& request, const Work& work, const RunContext& context,
                 RunReport& report) {
@@ -186,7 +158,7 @@ void make_files(const RunRequest& request, const Work& work, const RunContext& c
     platform::require_writable_file(file);
   const CheckpointTask task{files.checkpoint, request.config, work.to_fit,
                             request.checkpoint_seconds, request.resume_name};
-  const std::unique_ptr<FitJournal> journal = open_journal(task, request.resume, request.warn);
+  const std::unique_ptr<FitJournal> journal = journal_of(request, task);
   report.resumed = journal->count();
   remove_abandoned(files);
   CheckpointKeeper keeper(task, *journal, *context.progress);
@@ -234,21 +206,22 @@ FilesOfRun files_of_run(const Config& config, const fs::path& folder) {
 
 RunReport make_table(const RunRequest& request, const RunContext& context) {
   const Clock::time_point began = Clock::now();
-  const Work work = plan_work(request);
-  require_memory(request.config, work.to_fit, work.refinement());
+  const Work work = plan_work(request, context.ranks);
   RunReport report;
   report.needed = count(work.needed);
   report.added = count(work.to_fit);
   report.extends = work.existing.has_value();
-  if (request.folder.empty()) {
+  if (request.folder.empty() || !is_first(context.ranks)) {
     make_entries(request, work, context, nullptr, report);
     join_existing(work, report.table);
   } else {
     StopOnly unwatched;  // a checkpoint that cannot be written asks for a stop
-    make_files(request, work, {context.threads, context.progress ? context.progress : &unwatched},
+    make_files(request, work,
+               {context.threads, context.progress ? context.progress : &unwatched, context.ranks},
                report);
   }
-  report.half = half_text(request, report.table, context.threads);
+  if (is_first(context.ranks))
+    report.half = half_text(request, report.table, context.threads);
   report.seconds = seconds_since(began);
   report.peak_memory_bytes = platform::peak_memory_bytes();
   return report;

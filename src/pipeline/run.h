@@ -27,6 +27,8 @@ struct RunRequest {
   std::filesystem::path folder;   // for the files, made if need be; empty: none are written
   bool resume = false;            // goes on from the checkpoint that lies in the folder, if any
   double checkpoint_seconds = 5;  // between two of them; 0: none
+  // Files of all shards (pipeline/shards.h), whose fits are taken; none: all is fitted.
+  std::vector<std::filesystem::path> shards = {};
   std::string resume_name = "resume";  // what whoever reads messages asks for it by
   // What the caller has read beside scene and table: a run that would remove it is refused.
   std::vector<std::filesystem::path> inputs = {};
@@ -42,7 +44,7 @@ struct RunReport {
   std::size_t needed = 0;   // entries that the scene needs; all without a scene
   std::size_t added = 0;    // of these, not in the table that is extended
   bool extends = false;     // whether one is
-  std::size_t resumed = 0;  // fits taken from a checkpoint
+  std::size_t resumed = 0;  // fits taken from a checkpoint, or from shards
   std::string half;         // what 16-bit textures cost, in words; empty: none were written
   std::vector<std::filesystem::path> files;
   std::vector<std::filesystem::path>
@@ -66,7 +68,7 @@ FilesOfRun files_of_run(const Config& config, const std::filesystem::path& folde
 // require_extendable; InputError also for a checkpoint that is there without `resume` or is of
 // another run, and where an input would be removed; IoError where the system refuses; CheckFailure
 // where no entry has a finite fit, after which nothing is written. An Interrupted says where the
-// checkpoint is.
+// checkpoint is. Of several ranks the first one alone has to do with files, warnings and costs.
 RunReport make_table(const RunRequest& request, const RunContext& context);
 
 }  // namespace ltc

@@ -8,6 +8,7 @@
 
 #include "brdf/albedo.h"
 #include "core/parallel.h"
+#include "core/spread.h"
 #include "refine/field_terms.h"
 #include "table/precision.h"
 
@@ -91,9 +92,12 @@ std::vector<Albedo> integrate(const std::vector<Lobe>& lobes, double alpha_min,
                               const RunContext& run) {
   const AlbedoRule rule;
   std::vector<Albedo> albedos(lobes.size());
-  parallel_for_each("albedo", lobes.size(), run, [&](std::size_t i) {
-    albedos[i] = integrate_albedo(FieldVariables(lobes[i], alpha_min).lobe, rule);
-  });
+  spread_for_each<int>(
+      "albedo", Spreading::moving, lobes.size(), run, [] { return 0; },
+      [&](std::size_t i, int) {
+        albedos[i] = integrate_albedo(FieldVariables(lobes[i], alpha_min).lobe, rule);
+      },
+      [&](std::size_t i, auto&& take) { take(bytes_of(albedos[i])); });
   return albedos;
 }
 

@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/parallel.h"
+#include "core/spread.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
 #include "refine/field_albedo.h"
@@ -126,15 +126,16 @@ Start start_of(const WeightedLobes& lobes, double alpha_min, const QuerySampling
   fit.gauss_newton.steps = 6;
   const std::unique_ptr<Solver> solver = make_solver(fit);
   std::vector<Eigen::Matrix3d> fitted(count);
-  parallel_for_each<FitWorkspacePointer>(
-      "fit", count, run, [] { return make_fit_workspace(); },
+  spread_for_each<FitWorkspacePointer>(
+      "fit", Spreading::moving, count, run, make_fit_workspace,
       [&](std::size_t i, FitWorkspacePointer& workspace) {
         FitRequest request;
         request.lobe = some.lobes[i];
         request.seed = entry_seed(fit.seed, i);
         request.progress = run.progress;
         fitted[i] = solver->fit(request, *workspace, nullptr).matrix;
-      });
+      },
+      [&](std::size_t i, auto&& take) { take(bytes_of(fitted[i])); });
   FieldSystem system(some, alpha_min, {}, sampling, start_shift);
   Start start{matrix_pool(start_degree), {}};
   system.set_terms(start.terms, run);

@@ -9,9 +9,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/spread.h"
 #include "refine/field_kernels.h"
 #include "table/reduction.h"
 
@@ -147,12 +149,14 @@ Eigen::MatrixXf FieldSystem::values_at(const Eigen::VectorXd& coefficients,
 double FieldSystem::evaluate(const Eigen::VectorXd& coefficients, const RunContext& run) {
   const Eigen::MatrixXf values = values_at(coefficients, run);
   // The loss at the model in use tells each query's smoothing.
-  parallel_for<QueryMeter::Buffers>(
-      size(), run, [] { return QueryMeter::Buffers(); },
+  spread_for<QueryMeter::Buffers>(
+      Spreading::kept, size(), run, [] { return QueryMeter::Buffers(); },
       [&](std::size_t q, QueryMeter::Buffers& buffers) {
         evaluate_query(q, values.col(static_cast<Eigen::Index>(q)).cast<double>(), buffers);
         run.advance();
-      });
+      },
+      [&](std::size_t q, auto&& take) { take(bytes_of(evaluated_[q])); },
+      [&](std::size_t) { run.advance(); });
   return std::accumulate(evaluated_.begin(), evaluated_.end(), 0.0,
                          [](double sum, const Model& model) { return sum + model.loss; });
 }
@@ -166,9 +170,10 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
   for (std::size_t a = 0; a < parts; ++a)
     for (std::size_t b = a; b < parts; ++b)
       blocks.emplace_back(a, b);
+  const auto size_of = [&](std::size_t part) { return first_[part + 1] - first_[part]; };
   // One block is one thread's: sums have a fixed order.
-  parallel_for<Eigen::MatrixXf>(
-      blocks.size(), run, [] { return Eigen::MatrixXf(); },
+  spread_for<Eigen::MatrixXf>(
+      Spreading::moving, blocks.size(), run, [] { return Eigen::MatrixXf(); },
       [&](std::size_t i, Eigen::MatrixXf& weighted) {
         const auto [a, b] = blocks[i];
         const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
@@ -185,14 +190,24 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
         kernels::multiply_transposed(columns_of(rows_[a]), columns_of(weighted),
                                      &result.curvature(first_[a], first_[b]),
                                      static_cast<std::size_t>(n));
-        if (a != b)
-          result.curvature.block(first_[b], first_[a], rows_[b].cols(), rows_[a].cols()) =
-              result.curvature.block(first_[a], first_[b], rows_[a].cols(), rows_[b].cols())
-                  .transpose();
-        else
+        if (a == b)
           for (Eigen::Index i = 0; i < rows_[a].cols(); ++i)
             result.gradient[first_[a] + i] = rows_[a].col(i).cast<double>().dot(gradient);
-      });
+      },
+      [&](std::size_t i, auto&& take) {
+        const auto [a, b] = blocks[i];
+        const auto rows = static_cast<std::size_t>(size_of(a));
+        for (Eigen::Index column = first_[b]; column < first_[b + 1]; ++column)
+          take(std::as_writable_bytes(
+              std::span(result.curvature.col(column).data() + first_[a], rows)));
+        if (a == b)
+          take(std::as_writable_bytes(std::span(result.gradient.data() + first_[a], rows)));
+      },
+      [](std::size_t) {});
+  for (const auto& [a, b] : blocks)
+    if (a != b)
+      result.curvature.block(first_[b], first_[a], size_of(b), size_of(a)) =
+          result.curvature.block(first_[a], first_[b], size_of(a), size_of(b)).transpose();
   return result;
 }
 
@@ -204,8 +219,8 @@ Eigen::VectorXd FieldSystem::nearest_to(const std::vector<Eigen::Matrix3d>& fitt
                                         const RunContext& run) {
   // The cost of values f beside the fit's is cost + gradient . f + f . curvature f / 2.
   std::vector<double> cost(size()), weights(size(), 1.0);
-  parallel_for<QueryMeter::Buffers>(
-      size(), run, [] { return QueryMeter::Buffers(); },
+  spread_for<QueryMeter::Buffers>(
+      Spreading::kept, size(), run, [] { return QueryMeter::Buffers(); },
       [&](std::size_t q, QueryMeter::Buffers& buffers) {
         const Query& query = queries_[q];
         const LobeFrame frame(query.at.lobe);
@@ -221,7 +236,12 @@ Eigen::VectorXd FieldSystem::nearest_to(const std::vector<Eigen::Matrix3d>& fitt
         value.gradient = -bent;
         set_model(models_[q], query.directions, share, value);
         cost[q] = 0.5 * share * wanted.dot(bent);
-      });
+      },
+      [&](std::size_t q, auto&& take) {
+        take(bytes_of(models_[q]));
+        take(bytes_of(cost[q]));
+      },
+      [](std::size_t) {});
   Eigen::VectorXd coefficients;
   for (int round = 0; round < start_rounds; ++round) {
     Equations sums = assemble(weights, run);

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "core/spread.h"
 
 namespace ltc {
 namespace {
@@ -184,8 +185,9 @@ void QuerySystemOf<Node>::evaluate_query(std::size_t q, const Node& interpolated
 template <typename Node>
 double QuerySystemOf<Node>::evaluate(const std::vector<Node>& stored, const RunContext& run) {
   // The loss at the model in use tells each query's smoothing.
-  parallel_for<QueryMeter::Buffers>(
-      cells_.size(), run, [] { return QueryMeter::Buffers(); },
+  const auto size_of = [](const Cell& cell) { return cell.last - cell.first; };
+  spread_for<QueryMeter::Buffers>(
+      Spreading::kept, cells_.size(), run, [] { return QueryMeter::Buffers(); },
       [&](std::size_t c, QueryMeter::Buffers& buffers) {
         const Cell& cell = cells_[c];
         for (std::size_t q = cell.first; q < cell.last; ++q) {
@@ -196,8 +198,13 @@ double QuerySystemOf<Node>::evaluate(const std::vector<Node>& stored, const RunC
           evaluated_[q].loss = models_[q].loss;
           evaluate_query(q, interpolated, buffers);
         }
-        run.advance(cell.last - cell.first);
-      });
+        run.advance(size_of(cell));
+      },
+      [&](std::size_t c, auto&& take) {
+        for (std::size_t q = cells_[c].first; q < cells_[c].last; ++q)
+          take(bytes_of(evaluated_[q]));
+      },
+      [&](std::size_t c) { run.advance(size_of(cells_[c])); });
   return std::accumulate(evaluated_.begin(), evaluated_.end(), 0.0,
                          [](double sum, const Model& model) { return sum + model.loss; });
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/parallel.h"
+#include "core/spread.h"
 #include "field/field.h"
 #include "fit/loss_meter.h"
 #include "refine/query_system.h"
@@ -160,15 +160,16 @@ std::vector<double> node_losses(const TableNodes& nodes, const std::vector<Node>
   const Grid& grid = nodes.grid;
   const LossMeter meter(nodes.creases);
   std::vector<double> losses(grid.size(), std::numeric_limits<double>::quiet_NaN());
-  parallel_for_each<FitWorkspace>(
-      "node losses", grid.size(), run, [] { return FitWorkspace(); },
+  spread_for_each<FitWorkspace>(
+      "node losses", Spreading::moving, grid.size(), run, [] { return FitWorkspace(); },
       [&](std::size_t flat, FitWorkspace& workspace) {
         if (!nodes.has_values[flat])
           return;
         const LobeFrame frame(grid.lobe(flat));
         meter.set_target(frame, workspace);
         losses[flat] = node_loss(meter, frame, nodes, stored[flat], workspace);
-      });
+      },
+      [&](std::size_t flat, auto&& take) { take(bytes_of(losses[flat])); });
   return losses;
 }
 

@@ -91,14 +91,15 @@ class JsonDocumentOf : public ::testing::Test {
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }
 
-  void expect_documented(const std::vector<Arguments>& runs) {
+  // Under the heading of the command, or another one.
+  void expect_documented(const std::vector<Arguments>& runs, const std::string& heading = "") {
     Keys printed;
     for (const Arguments& run : runs) {
       const ProgramResult result = run_ltcfit(run + Arguments{"--json", "-"}, folder_.path());
       ASSERT_TRUE(Json::accept(result.out)) << result.err;
       add_keys(Json::parse(result.out), "", printed);
     }
-    expect_same(printed, documented_keys(runs.front().front()));
+    expect_same(printed, documented_keys(heading.empty() ? runs.front().front() : heading));
   }
 
   TemporaryDirectory folder_;
@@ -106,6 +107,10 @@ class JsonDocumentOf : public ::testing::Test {
 
 TEST_F(JsonDocumentOf, Generate) {
   expect_documented({generate(tiny), generate(tiny + Arguments{"--set", "refine.steps=0"})});
+}
+
+TEST_F(JsonDocumentOf, Shard) {
+  expect_documented({generate(tiny + Arguments{"--shard", "1/2"})}, "generate --shard");
 }
 
 TEST_F(JsonDocumentOf, Fit) {

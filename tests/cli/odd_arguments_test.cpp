@@ -100,7 +100,7 @@ std::string OddArguments::table_;
 
 TEST_F(OddArguments, OfTheProgram) {
   expect({
-      {"", 2, "no command given; expected generate, fit"},
+      {"", 2, "no command given; expected generate, merge, fit"},
       {"~", 2, "unknown command ''"},
       {"^", 2, "unknown command ' '"},
       {"Generate", 2, "unknown command Generate"},

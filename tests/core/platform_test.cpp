@@ -6,10 +6,14 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/write_file.h"
 #include "support/refusal.h"
 #include "support/temporary_directory.h"
@@ -145,6 +149,24 @@ TEST(FolderLock, IsHeldByOneAtATimeAndLeavesNothing) {
   lock.reset();
   EXPECT_NO_THROW(FolderLock{folder.path()});
   EXPECT_EQ(names_in(folder.path()), Names{});
+}
+
+TEST(FolderLock, IsSharedByThoseThatAskSo) {
+  const TemporaryDirectory folder;
+  std::optional<FolderLock> one(std::in_place, folder.path(), true);
+  std::optional<FolderLock> two(std::in_place, folder.path(), true);
+  EXPECT_THROW(FolderLock{folder.path()}, IoError);
+  one.reset();
+  EXPECT_THROW(FolderLock{folder.path()}, IoError);
+  two.reset();
+  const FolderLock alone(folder.path());
+  EXPECT_THROW(FolderLock(folder.path(), true), IoError);
+}
+
+TEST(Processors, AreThoseThatThreadsMayUse) {
+  const std::vector<std::uint8_t> allowed = allowed_processors();
+  EXPECT_EQ(std::ranges::count(allowed, 1), processor_count());
+  EXPECT_EQ(std::ranges::count(allowed, 0) + processor_count(), std::ssize(allowed));
 }
 
 TEST(FolderLock, RefusesWhatIsNoFolder) {

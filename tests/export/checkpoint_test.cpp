@@ -95,6 +95,26 @@ TEST(Checkpoint, HoldsWhatIsFinishedAlone) {
   EXPECT_NE(dump.output.find("( 2, 1, 3, 3 )"), std::string::npos) << dump.output;
 }
 
+TEST(Checkpoint, OfAShardSaysWhichOne) {
+  const TemporaryDirectory folder;
+  const FinishedFits fits = example();
+  write_checkpoint(config_with(), all_needed, fits, folder / "s.h5", Shard{2, 3});
+  const ShardHeader header = read_shard_header(folder / "s.h5");
+  EXPECT_EQ(header.shard.number, 2);
+  EXPECT_EQ(header.shard.count, 3);
+  EXPECT_EQ(header.config, to_toml(config_with()));
+  const FinishedFits read =
+      read_checkpoint(config_with(), all_needed, folder / "s.h5", Shard{2, 3});
+  EXPECT_TRUE(test::same_bits(read.rounds[0], fits.rounds[0]));
+  const auto refusal = [&](const std::optional<Shard>& shard) {
+    return message_of<InputError>(
+        [&] { read_checkpoint(config_with(), all_needed, folder / "s.h5", shard); });
+  };
+  test::expect_one_line(refusal(Shard{3, 3}), {"s.h5", "of shard 2 of 3; expected 3 of 3"});
+  test::expect_one_line(refusal(Shard{2, 4}), {"s.h5", "of shard 2 of 3; expected 2 of 4"});
+  test::expect_one_line(refusal({}), {"s.h5", "\"ltc-shard\"", "\"ltc-checkpoint\""});
+}
+
 // ---- What it refuses ----
 
 void expect_refused(const TemporaryDirectory& folder, const Config& config,
@@ -112,6 +132,20 @@ TEST(CheckpointRefused, OfAnotherConfig) {
                  {"table.phi.nodes = 2", "now it is 3"});
   EXPECT_NO_THROW(read_checkpoint(config_with({"output.exr_half=true", "output.name=b"}),
                                   all_needed, folder / "c.h5"));
+}
+
+TEST(CheckpointRefused, AsAShard) {
+  const TemporaryDirectory folder;
+  const auto refusal = [&] {
+    return message_of<InputError>([&] { read_shard_header(folder / "s.h5"); });
+  };
+  write_checkpoint(config_with(), all_needed, example(), folder / "s.h5");
+  test::expect_one_line(refusal(), {"s.h5", "\"ltc-checkpoint\"; allowed: \"ltc-shard\""});
+  for (const Shard shard : {Shard{0, 3}, Shard{4, 3}, Shard{1, most_shards + 1}, Shard{-1, -1}}) {
+    write_checkpoint(config_with(), all_needed, example(), folder / "s.h5", shard);
+    test::expect_one_line(refusal(), {"s.h5", "allowed: 1 to their number"});
+  }
+  EXPECT_THROW(read_shard_header(folder / "none.h5"), IoError);
 }
 
 TEST(CheckpointRefused, OfOtherEntries) {

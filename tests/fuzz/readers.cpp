@@ -81,7 +81,8 @@ const std::vector<bool> checkpointed_entries(16, true);
 template <auto read_as_checkpoint>
 void read_checkpoint_bytes(const fs::path& folder, std::string_view bytes) {
   const fs::path path = written(folder / "checkpoint.h5", bytes);
-  const FinishedFits fits = read_as_checkpoint(checkpointed_config(), checkpointed_entries, path);
+  const FinishedFits fits =
+      read_as_checkpoint(checkpointed_config(), checkpointed_entries, path, std::nullopt);
   if (fits.rounds.size() != 2 || fits.rounds[1].size() != checkpointed_entries.size())
     throw std::logic_error("a checkpoint of nothing");
 }
