@@ -171,9 +171,9 @@ std::vector<Status> read_status(const Hdf5Input& file, const fs::path& path,
   const std::vector<std::uint8_t> raw = file.values<std::uint8_t>("status", shape);
   std::vector<Status> status(raw.size());
   std::transform(raw.begin(), raw.end(), status.begin(), [&path](std::uint8_t value) {
-    if (value > static_cast<std::uint8_t>(Status::failed))
+    if (value > static_cast<std::uint8_t>(Status::interpolated))
       throw InputError(
-          fmt::format("{}: dataset status holds {}; allowed: 0 to 4", path.string(), value));
+          fmt::format("{}: dataset status holds {}; allowed: 0 to 5", path.string(), value));
     return static_cast<Status>(value);
   });
   return status;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
 
 #include "align/align.h"
 #include "brdf/albedo.h"
@@ -18,6 +19,7 @@
 #include "core/version.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
+#include "interpolate/between_fits.h"
 #include "pipeline/post_process.h"
 #include "postprocess/normalise.h"
 #include "refine/refine_queries.h"
@@ -31,11 +33,34 @@ namespace {
 // Numbers of the field that a folded table starts from.
 constexpr int folded_start_size = 512;
 
+// The values of one entry, from its aligned matrix.
+void post_process_entry(const Grid& grid, std::size_t flat, const FittedEntry& entry, Table& table,
+                        double& zeroed) {
+  table.status[flat] = entry.status;
+  table.iterations[flat] = static_cast<std::uint16_t>(
+      std::min(entry.steps, static_cast<int>(std::numeric_limits<std::uint16_t>::max())));
+  if (!has_values(entry.status))
+    return;
+  const PostProcessed finished = post_process(grid.lobe(flat), table.storage, entry.matrix);
+  zeroed = finished.zeroed;
+  table.set_stored(flat, finished.stored);
+  table.sw_loss[flat] = static_cast<float>(entry.loss);
+}
+
 void align_all(std::vector<FittedEntry>& entries, const RunContext& run) {
   parallel_for_each("align", entries.size(), run, [&](std::size_t i) {
     if (has_values(entries[i].status))
       entries[i].matrix = align(entries[i].matrix);
   });
+}
+
+// The first of the largest, in whatever order they come.
+void note_zeroed(double zeroed, std::size_t flat, GenerateReport& report) {
+  if (zeroed > report.largest_zeroed ||
+      (zeroed == report.largest_zeroed && zeroed > 0 && flat < report.largest_zeroed_entry)) {
+    report.largest_zeroed = zeroed;
+    report.largest_zeroed_entry = flat;
+  }
 }
 
 // From aligned matrices to the table. At theta = 0 all phi share one lobe; their matrices are made
@@ -44,20 +69,26 @@ void post_process_all(const Grid& grid, const std::vector<FittedEntry>& entries,
                       const RunContext& run, GenerateReport& report) {
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
     run.throw_if_stopped();
-    const FittedEntry& entry = entries[flat];
-    table.status[flat] = entry.status;
-    table.iterations[flat] = static_cast<std::uint16_t>(
-        std::min(entry.steps, static_cast<int>(std::numeric_limits<std::uint16_t>::max())));
-    if (!has_values(entry.status))
-      continue;
-    const PostProcessed finished = post_process(grid.lobe(flat), table.storage, entry.matrix);
-    if (finished.zeroed > report.largest_zeroed) {
-      report.largest_zeroed = finished.zeroed;
-      report.largest_zeroed_entry = flat;
-    }
-    table.set_stored(flat, finished.stored);
-    table.sw_loss[flat] = static_cast<float>(entry.loss);
+    double zeroed = 0;
+    post_process_entry(grid, flat, entries[flat], table, zeroed);
+    note_zeroed(zeroed, flat, report);
   }
+}
+
+// Big tables: fits at some nodes, and what lies between them.
+void fill_between_fits(const Config& config, const RunContext& run, FitJournal* journal,
+                       Table& table, GenerateReport& report) {
+  std::mutex mutex;
+  const BetweenFitsReport made = fill_between_fits(
+      config.grid, config.fit, {}, run, journal, [&](std::size_t flat, const FittedEntry& entry) {
+        double zeroed = 0;
+        post_process_entry(config.grid, flat, entry, table, zeroed);
+        if (zeroed == 0)
+          return;
+        const std::lock_guard lock(mutex);
+        note_zeroed(zeroed, flat, report);
+      });
+  report.fits = made.fits;
 }
 
 bool has_values_in(const Table* table, std::size_t flat) {
@@ -179,21 +210,24 @@ void measure_losses(const RunContext& run, Table& table) {
     measure_losses<Eigen::Matrix3d>(present, run, table);
 }
 
-void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
+// `representative_of` a node, or PlannedEntry::none, as in a plan by symmetry.
+template <typename Representative>
+void integrate_albedos(const Grid& grid, const Representative& representative_of,
                        const RunContext& run, Table& table) {
   const AlbedoRule rule;
-  parallel_for_each("albedo", plan.size(), run, [&](std::size_t flat) {
-    if (plan[flat].representative != flat)
+  parallel_for_each("albedo", grid.size(), run, [&](std::size_t flat) {
+    if (representative_of(flat) != flat)
       return;
     const Albedo albedo = integrate_albedo(grid.lobe(flat), rule);
     table.amplitude[flat] = static_cast<float>(albedo.amplitude);
     table.fresnel[flat] = static_cast<float>(albedo.fresnel);
   });
-  for (std::size_t flat = 0; flat < plan.size(); ++flat) {
-    if (plan[flat].representative == PlannedEntry::none)
+  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    const std::size_t representative = representative_of(flat);
+    if (representative == PlannedEntry::none)
       continue;
-    table.amplitude[flat] = table.amplitude[plan[flat].representative];
-    table.fresnel[flat] = table.fresnel[plan[flat].representative];
+    table.amplitude[flat] = table.amplitude[representative];
+    table.fresnel[flat] = table.fresnel[representative];
   }
 }
 
@@ -291,6 +325,19 @@ void describe(const Config& config, Table& table) {
 
 }  // namespace
 
+bool is_interpolated(const Config& config, const std::vector<bool>& needed) {
+  // Up to so many lobes fits take seconds.
+  constexpr std::size_t most_fitted = 20'000;
+  const FitSettings& fit = config.fit;
+  const bool may = fit.interpolation == InterpolationMode::automatic &&
+                   fit.solver == SolverKind::gauss_newton && fit.lobe == LobeKind::single &&
+                   fit.horizon == HorizonMode::clipped && sweep_count(fit) == 0 &&
+                   config.refine.steps == 0 && config.field.size == 0 &&
+                   config.storage != Storage::inverse;
+  return may && has_long_axis(config.grid) && EqualLobes(config.grid).count() > most_fitted &&
+         std::ranges::find(needed, false) == needed.end();
+}
+
 Cost cost_of(const Config& config, const std::vector<bool>& needed, const RefineContext& context) {
   const MemoryNeeded memory = memory_needed(config, needed, context);
   Cost cost;
@@ -360,6 +407,20 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     return table;
   }
 
+  if (is_interpolated(config, needed)) {
+    Table table = Table::empty(config.grid, config.storage);
+    result.fits_of_whole_grid = EqualLobes(config.grid).count();
+    fill_between_fits(config, run, journal, table, result);
+    finish_stage("fit");
+    describe(config, table);
+    table.refined = false;
+    const EqualLobes equal(config.grid);
+    integrate_albedos(
+        config.grid, [&](std::size_t flat) { return equal.first_of(flat); }, run, table);
+    finish_stage("albedo");
+    return table;
+  }
+
   const std::vector<PlannedEntry> plan = plan_by_symmetry(config.grid, needed, run);
   const std::size_t lobes = representative_count(plan);
   Table table = Table::empty(config.grid, config.storage);
@@ -400,7 +461,8 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     table.refined = result.refine->kept;
     finish_stage("refine");
   }
-  integrate_albedos(config.grid, plan, run, table);
+  integrate_albedos(
+      config.grid, [&](std::size_t flat) { return plan[flat].representative; }, run, table);
   finish_stage("albedo");
   return table;
 }
