@@ -22,6 +22,9 @@
 #include "export/hdf5_guard.h"
 
 namespace ltc {
+
+Format hdf5_format();
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -233,7 +236,9 @@ void add_hdf5(platform::FileSet& set, const Table& table, const fs::path& path) 
   if (table.field && table.field->material)
     throw InputError(fmt::format("{}: HDF5 holds fields of all materials, and this is one of one",
                                  path.string()));
-  Hdf5Output file(path.string());
+  // Beside the entries some pages: attributes, axes, what the library keeps.
+  constexpr std::size_t all_else = std::size_t{4} << 20;
+  Hdf5Output file(path.string(), table.grid.size() * hdf5_format().entry_bytes + all_else);
   write_attributes(file, table);
   write_axes(file, table.grid);
   write_entries(file, table);

@@ -7,10 +7,14 @@
 namespace ltc {
 
 LossMeter::LossMeter(std::size_t bins, const Creases& creases)
+    : LossMeter(bins, 2048, 32, creases) {}
+
+LossMeter::LossMeter(std::size_t bins, std::size_t samples, std::size_t directions,
+                     const Creases& creases)
     : bins_(bins),
-      cosines_(make_cosine_set(2048)),
-      lattice_(make_target_lattice(4096, 0.3)),
-      directions_(in_float(fibonacci_directions(32))) {
+      cosines_(make_cosine_set(samples)),
+      lattice_(make_target_lattice(2 * samples, 0.3)),
+      directions_(in_float(fibonacci_directions(directions))) {
   if (!creases.empty())
     u_ = crease_distances(cosines_, creases);
 }

@@ -19,6 +19,9 @@ class LossMeter {
  public:
   // 2048 cosine samples, 4096 of the lobe, 32 directions.
   explicit LossMeter(std::size_t bins, const Creases& creases = {});
+  // So many cosine samples, twice as many of the lobe.
+  LossMeter(std::size_t bins, std::size_t samples, std::size_t directions,
+            const Creases& creases = {});
 
   // The workspace's target of a lobe, to be set before loss().
   void set_target(const LobeFrame& frame, FitWorkspace& workspace) const;

@@ -14,7 +14,7 @@ bool has_long_axis(const Grid& grid);
 struct ProbeSettings {
   std::size_t nodes = 8;    // about so many of an axis to begin with
   std::size_t lines = 24;   // of each axis
-  double tolerance = 1e-3;  // of the mean excess in the middle of an interval
+  double tolerance = 4e-3;  // of the mean excess in the middle of an interval
 };
 
 // Halves the spacing from node to node of each axis where the loss in its middle exceeds that of

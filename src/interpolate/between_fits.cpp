@@ -185,7 +185,31 @@ class Filling {
   NodeFits fits_;
 };
 
+// Of an axis: what probing leaves of it, measured with the paper's.
+double lattice_nodes(std::size_t size) {
+  const auto n = static_cast<double>(size);
+  return size <= 12 ? n : std::min(n, 8 + n / 6);
+}
+
 }  // namespace
+
+std::size_t estimated_fits(const Grid& grid) {
+  double fits = 1;
+  for (std::size_t axis = 0; axis < axis_count; ++axis)
+    fits *= lattice_nodes(grid.axis(axis).size());
+  return std::min(static_cast<std::size_t>(2 * fits), EqualLobes(grid).count());
+}
+
+std::size_t between_fits_memory_bytes(const Grid& grid) {
+  // The last lattice has about every second node of each axis, and the one before is still there;
+  // a fit is known here, in the journal and in the checkpoint that is being written.
+  constexpr std::size_t of_fit = 2 * (sizeof(FittedEntry) + 48) + sizeof(FittedEntry);
+  double lattice = sizeof(NodeValues) * 1.2;
+  for (std::size_t axis = 0; axis < axis_count; ++axis)
+    lattice *= std::min(static_cast<double>(grid.axis(axis).size()),
+                        static_cast<double>(grid.axis(axis).size()) / 2 + 4);
+  return static_cast<std::size_t>(lattice) + estimated_fits(grid) * of_fit;
+}
 
 BetweenFitsReport fill_between_fits(const Grid& grid, const FitSettings& fit,
                                     const BetweenFitsSettings& settings, const RunContext& run,

@@ -18,7 +18,7 @@ namespace ltc {
 
 struct BetweenFitsSettings {
   ProbeSettings probe;
-  double tolerance = 2e-3;  // of the excess in the middle of a cell
+  double tolerance = 1e-2;  // of the excess in the middle of a cell
 };
 
 struct BetweenFitsReport {
@@ -26,6 +26,10 @@ struct BetweenFitsReport {
   std::size_t lattice_fits = 0;  // of these, for the axes and at the nodes of the first lattice
   LatticeAxes axes;              // of that
 };
+
+// About how many fits a grid takes, and bytes of memory beside what is stored.
+std::size_t estimated_fits(const Grid& grid);
+std::size_t between_fits_memory_bytes(const Grid& grid);
 
 // Calls `store` once for each node, from any thread, with its aligned matrix: fitted (or analytic,
 // or failed) as by fit_table, interpolated, or copied by symmetry as there. What is stored is a

@@ -22,6 +22,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // What a loss is taken for at least: it has a logarithm.
 constexpr double least_loss = 1e-30;
 
+// Enough to tell a per cent, in a fifth of the time of a fit.
+constexpr int compared_samples = 1024;
+constexpr std::size_t compared_directions = 24;
+
 Eigen::Vector3d widths_of(const Lobe& lobe) {
   return {lobe.alpha_x, width_across(lobe), 1};
 }
@@ -58,7 +62,7 @@ NodeFits::NodeFits(const Grid& grid, const FitSettings& settings, const RunConte
       journal_(journal),
       equal_(grid),
       solver_(make_solver(settings)),
-      meter_(bins_for(2048)) {}
+      meter_(bins_for(compared_samples), compared_samples, compared_directions) {}
 
 void NodeFits::fit(std::string_view stage, const std::vector<std::size_t>& nodes) {
   std::vector<std::size_t> unknown;

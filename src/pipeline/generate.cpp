@@ -103,6 +103,13 @@ std::vector<bool> values_behind(const std::vector<bool>& needed, const RefineCon
   return present;
 }
 
+// The table and what its files are made in, one after the other; or what its values are made from.
+std::size_t memory_between_fits(const Config& config) {
+  constexpr std::size_t of_entry = 12 * sizeof(float) + 4, of_files = 60;
+  return config.grid.size() * of_entry +
+         std::max(config.grid.size() * of_files, between_fits_memory_bytes(config.grid));
+}
+
 // What making the table takes of memory, about: its refinement, and the rest.
 struct MemoryNeeded {
   std::size_t table, refinement;
@@ -112,6 +119,8 @@ MemoryNeeded memory_needed(const Config& config, const std::vector<bool>& needed
   // The table, and its values again in every file that is made of it; fits, those of a sweep, and
   // those in the journal and in a checkpoint.
   constexpr std::size_t of_value = 5 * (12 * sizeof(float) + 4);
+  if (is_interpolated(config, needed))
+    return {memory_between_fits(config), 0};
   const auto fits = static_cast<std::size_t>(2 + 2 * (1 + sweep_count(config.fit)));
   MemoryNeeded memory{
       config.grid.size() * (of_value + sizeof(PlannedEntry) + fits * sizeof(FittedEntry)), 0};
@@ -349,7 +358,9 @@ Cost cost_of(const Config& config, const std::vector<bool>& needed, const Refine
   const bool whole = std::find(needed.begin(), needed.end(), false) == needed.end();
   if (config.storage == Storage::folded)
     cost.queries = static_cast<std::size_t>(config.field.queries);
-  if (config.storage != Storage::folded || config.refine.steps == 0)
+  if (is_interpolated(config, needed))
+    cost.fits = estimated_fits(config.grid);
+  else if (config.storage != Storage::folded || config.refine.steps == 0)
     cost.fits = whole ? EqualLobes(config.grid).count()
                       : representative_count(plan_by_symmetry(config.grid, needed));
   if (config.refine.steps > 0)
