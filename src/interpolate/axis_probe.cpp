@@ -88,7 +88,6 @@ class Probe {
       for (const std::size_t cell : cells)
         middles.push_back(flat(place, middle_of_cell(nodes, cell)));
     }
-    all.insert(all.end(), middles.begin(), middles.end());
     fits_.fit("probe", all);
     std::vector<NodeValues> interpolated;
     for (std::size_t line = 0; line < settings_.lines; ++line) {
@@ -101,7 +100,7 @@ class Probe {
         interpolated.push_back(sum);
       }
     }
-    const std::vector<double> excess = fits_.excess(middles, interpolated);
+    const std::vector<double> excess = fits_.excess("probe", middles, interpolated);
     std::vector<double> mean(cells.size());
     for (std::size_t i = 0; i < excess.size(); ++i) {
       const bool known = excess[i] <= largest_counted;  // not where it is NaN

@@ -65,11 +65,10 @@ class Filling {
         cells.push_back(cell);
         middles.push_back(fits_.first_of(flat(open.middle(cell))));
       }
-    fits_.fit("check", middles);
     std::vector<NodeValues> values(middles.size());
     parallel_for(middles.size(), run_,
                  [&](std::size_t i) { values[i] = lattice.at(grid_.indices(middles[i])); });
-    const std::vector<double> excess = fits_.excess(middles, values);
+    const std::vector<double> excess = fits_.excess("check", middles, values);
     LatticeCells failing(lattice.axes(), false);
     for (std::size_t i = 0; i < cells.size(); ++i)
       failing.set(cells[i], !(excess[i] <= settings_.tolerance));
@@ -188,7 +187,7 @@ class Filling {
 // Of an axis: what probing leaves of it, measured with the paper's.
 double lattice_nodes(std::size_t size) {
   const auto n = static_cast<double>(size);
-  return size <= 12 ? n : std::min(n, 8 + n / 6);
+  return size <= 12 ? n : std::min(n, 6.6 + n / 4.9);
 }
 
 }  // namespace

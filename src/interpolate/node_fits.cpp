@@ -64,7 +64,7 @@ NodeFits::NodeFits(const Grid& grid, const FitSettings& settings, const RunConte
       solver_(make_solver(settings)),
       meter_(bins_for(compared_samples), compared_samples, compared_directions) {}
 
-void NodeFits::fit(std::string_view stage, const std::vector<std::size_t>& nodes) {
+std::vector<std::size_t> NodeFits::unknown_of(const std::vector<std::size_t>& nodes) {
   std::vector<std::size_t> unknown;
   for (const std::size_t flat : nodes)
     if (const std::size_t first = first_of(flat); !known_.contains(first))
@@ -78,13 +78,23 @@ void NodeFits::fit(std::string_view stage, const std::vector<std::size_t>& nodes
       known_.emplace(first, entry);
     return recalled;
   });
+  return unknown;
+}
+
+FittedEntry NodeFits::fit_and_note(std::size_t first, FitWorkspace& workspace) const {
+  FittedEntry entry = fit_alone(first, workspace);
+  // A stop ends a fit early, with whatever it has.
+  if (journal_ && !run_.stop_requested())
+    journal_->note(0, first, entry);
+  return entry;
+}
+
+void NodeFits::fit(std::string_view stage, const std::vector<std::size_t>& nodes) {
+  const std::vector<std::size_t> unknown = unknown_of(nodes);
   std::vector<FittedEntry> fitted(unknown.size());
   parallel_for_each<FitWorkspacePointer>(stage, unknown.size(), run_, make_fit_workspace,
                                          [&](std::size_t i, FitWorkspacePointer& workspace) {
-                                           fitted[i] = fit_alone(unknown[i], *workspace);
-                                           // A stop ends a fit early, with whatever it has.
-                                           if (journal_ && !run_.stop_requested())
-                                             journal_->note(0, unknown[i], fitted[i]);
+                                           fitted[i] = fit_and_note(unknown[i], *workspace);
                                          });
   for (std::size_t i = 0; i < unknown.size(); ++i)
     known_.emplace(unknown[i], fitted[i]);
@@ -110,28 +120,61 @@ const FittedEntry* NodeFits::find(std::size_t first) const {
 }
 
 NodeValues NodeFits::values_at(std::size_t flat) const {
-  const FittedEntry& entry = known_.at(first_of(flat));
-  if (!has_values(entry.status))
-    return NodeValues::Constant(nan);
-  return values_of(grid_.lobe(flat), align(turned(entry.matrix, turn_radians(flat))), entry.loss);
+  return values_at(flat, known_.at(first_of(flat)));
 }
 
-std::vector<double> NodeFits::excess(const std::vector<std::size_t>& nodes,
-                                     const std::vector<NodeValues>& interpolated) const {
-  std::vector<double> result(nodes.size(), nan);
+NodeValues NodeFits::values_at(std::size_t flat, const FittedEntry& fitted) const {
+  if (!has_values(fitted.status))
+    return NodeValues::Constant(nan);
+  return values_of(grid_.lobe(flat), align(turned(fitted.matrix, turn_radians(flat))), fitted.loss);
+}
+
+double NodeFits::excess_of(std::size_t flat, const NodeValues& own, const NodeValues& interpolated,
+                           FitWorkspace& workspace) const {
+  if (!own.isFinite().all() || !interpolated.isFinite().all())
+    return nan;
+  const LobeFrame frame(grid_.lobe(flat));
+  meter_.set_target(frame, workspace);
+  const auto loss = [&](const NodeValues& values) {
+    return meter_.loss(frame, frame.from_matrix(matrix_of(frame.lobe, values)), workspace);
+  };
+  return loss(interpolated) / loss(own) - 1;
+}
+
+std::vector<double> NodeFits::excess(std::string_view stage, const std::vector<std::size_t>& nodes,
+                                     const std::vector<NodeValues>& interpolated) {
+  // Those of lobes that are not known first, each once, so that no two threads fit the same.
+  const std::vector<std::size_t> unknown = unknown_of(nodes);
+  std::unordered_map<std::size_t, std::size_t> place;
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    place.emplace(unknown[i], i);
+  std::vector<std::vector<std::size_t>> of_unknown(unknown.size());
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const auto found = place.find(first_of(nodes[i])); found != place.end())
+      of_unknown[found->second].push_back(i);
+    else
+      others.push_back(i);
+
+  std::vector<double> result(nodes.size());
+  std::vector<FittedEntry> fitted(unknown.size());
+  const auto compare = [&](std::size_t i, const FittedEntry& entry, FitWorkspace& workspace) {
+    result[i] = excess_of(nodes[i], values_at(nodes[i], entry), interpolated[i], workspace);
+  };
   parallel_for_each<FitWorkspacePointer>(
-      "compare", nodes.size(), run_, make_fit_workspace,
+      stage, unknown.size() + others.size(), run_, make_fit_workspace,
       [&](std::size_t i, FitWorkspacePointer& workspace) {
-        const NodeValues own = values_at(nodes[i]);
-        if (!own.isFinite().all() || !interpolated[i].isFinite().all())
+        if (i >= unknown.size()) {
+          const std::size_t at = others[i - unknown.size()];
+          compare(at, known_.at(first_of(nodes[at])), *workspace);
           return;
-        const LobeFrame frame(grid_.lobe(nodes[i]));
-        meter_.set_target(frame, *workspace);
-        const auto loss = [&](const NodeValues& values) {
-          return meter_.loss(frame, frame.from_matrix(matrix_of(frame.lobe, values)), *workspace);
-        };
-        result[i] = loss(interpolated[i]) / loss(own) - 1;
+        }
+        fitted[i] = fit_and_note(unknown[i], *workspace);
+        for (const std::size_t at : of_unknown[i])
+          compare(at, fitted[i], *workspace);
       });
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    known_.emplace(unknown[i], fitted[i]);
   return result;
 }
 

@@ -51,11 +51,19 @@ class NodeFits {
   FittedEntry fit_alone(std::size_t first, FitWorkspace& workspace) const;
 
   // By how much the loss of interpolated values exceeds that of the node's own fit, as a share of
-  // it, on samples that are not those of the fit; one a node, all known. NaN where there is no fit.
-  std::vector<double> excess(const std::vector<std::size_t>& nodes,
-                             const std::vector<NodeValues>& interpolated) const;
+  // it, on samples that are not those of the fit; one a node, of which those that are not known are
+  // fitted. NaN where there is no fit. Throws Interrupted.
+  std::vector<double> excess(std::string_view stage, const std::vector<std::size_t>& nodes,
+                             const std::vector<NodeValues>& interpolated);
 
  private:
+  // Those of the nodes' lobes that are not known, each once; what the journal knows of them is.
+  std::vector<std::size_t> unknown_of(const std::vector<std::size_t>& nodes);
+  FittedEntry fit_and_note(std::size_t first, FitWorkspace& workspace) const;
+  NodeValues values_at(std::size_t flat, const FittedEntry& fitted) const;
+  double excess_of(std::size_t flat, const NodeValues& own, const NodeValues& interpolated,
+                   FitWorkspace& workspace) const;
+
   const Grid& grid_;
   const FitSettings& settings_;
   const RunContext run_;
