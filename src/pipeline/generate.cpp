@@ -358,7 +358,8 @@ Cost cost_of(const Config& config, const std::vector<bool>& needed, const Refine
   const bool whole = std::find(needed.begin(), needed.end(), false) == needed.end();
   if (config.storage == Storage::folded)
     cost.queries = static_cast<std::size_t>(config.field.queries);
-  if (is_interpolated(config, needed))
+  cost.interpolated = is_interpolated(config, needed);
+  if (cost.interpolated)
     cost.fits = estimated_fits(config.grid);
   else if (config.storage != Storage::folded || config.refine.steps == 0)
     cost.fits = whole ? EqualLobes(config.grid).count()

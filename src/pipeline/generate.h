@@ -45,6 +45,7 @@ bool is_interpolated(const Config& config, const std::vector<bool>& needed);
 // What making a table costs, told before it is made.
 struct Cost {
   std::size_t fits = 0;
+  bool interpolated = false;     // fits are about so many, and lie at some of the nodes
   std::size_t memory_bytes = 0;  // about
   std::size_t queries = 0;       // look-ups that nodes are refined on; 0: no refinement
 };
