@@ -32,9 +32,10 @@ std::string cost_text(const Config& config, const Cost& cost) {
     return "";
   const std::string refinement =
       cost.queries > 0 ? fmt::format(", a refinement on {} look-ups", cost.queries) : "";
-  return fmt::format("generate: {} fits for {} entries{}; about {} of memory and {} of files\n",
-                     cost.fits, config.grid.size(), refinement, gigabytes(cost.memory_bytes),
-                     gigabytes(file_bytes(config)));
+  return fmt::format("generate: {}{} fits for {} entries{}{}; about {} of memory and {} of files\n",
+                     cost.interpolated ? "about " : "", cost.fits, config.grid.size(),
+                     cost.interpolated ? ", the others interpolated" : "", refinement,
+                     gigabytes(cost.memory_bytes), gigabytes(file_bytes(config)));
 }
 
 }  // namespace ltc::cli

@@ -34,6 +34,9 @@ std::string figures_text(const QualityReport& quality) {
   return fmt::format("\n{:<36} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "quality", "judged",
                      "mean", "+-", "median", "95 %", "99 %", "largest") +
          row_text("loss / spread at nodes", quality.nodes) +
+         (quality.node_fit_ratios.empty()
+              ? ""
+              : row_text("  over that of their own fits", quality.node_fits)) +
          row_text("loss / spread between nodes", quality.query_losses) +
          row_text(floor, quality.floor_losses) +
          row_text("area lights, shape alone", quality.area_light) +
@@ -161,6 +164,7 @@ Json quality_json(const std::string& file, const QualityReport& quality,
   json["query_range"] = range_json(quality.settings.range);
   json["horizon"] = name_of(quality.settings.horizon);
   json["node_loss"] = json_of(quality.nodes);
+  json["node_loss_over_fits"] = json_of(quality.node_fits);
   json["nodes_without_values"] = quality.nodes_without_values;
   json["query_loss"] = json_of(quality.query_losses);
   json["floor"] = name_of(quality.settings.floor_fit.lobe);

@@ -28,9 +28,11 @@ std::string entries_text(const TableSummary& summary) {
   std::size_t all = 0;
   for (const std::size_t entries : summary.entries_by_status)
     all += entries;
+  const std::size_t between = count(Status::interpolated);
   return fmt::format(
-      "entries  {}: {} fitted, {} copied by symmetry, {} analytic, {} skipped, {} failed\n", all,
-      count(Status::fitted), count(Status::copied), count(Status::analytic), count(Status::skipped),
+      "entries  {}: {} fitted, {}{} copied by symmetry, {} analytic, {} skipped, {} failed\n", all,
+      count(Status::fitted), between > 0 ? fmt::format("{} interpolated, ", between) : "",
+      count(Status::copied), count(Status::analytic), count(Status::skipped),
       count(Status::failed));
 }
 

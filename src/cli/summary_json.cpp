@@ -15,8 +15,8 @@ using Json = nlohmann::ordered_json;
 
 Json entries_json(const TableSummary& summary) {
   Json json;
-  for (const Status status :
-       {Status::fitted, Status::copied, Status::analytic, Status::skipped, Status::failed})
+  for (const Status status : {Status::fitted, Status::copied, Status::analytic,
+                              Status::interpolated, Status::skipped, Status::failed})
     json[std::string(name_of(status))] =
         summary.entries_by_status[static_cast<std::size_t>(status)];
   return json;

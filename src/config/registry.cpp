@@ -55,6 +55,7 @@ std::vector<Key> fit_keys() {
       key("fit.crease", [](Draft& d) { return &d.config.fit.crease; }, {0, 10}, "where folded lobes have their creases, |x| = crease z of the cosine"),
       key("fit.second_crease", [](Draft& d) { return &d.config.fit.second_crease; }, {0, 10}, "a second pair of creases, above the first; 0: none"),
       key("fit.horizon", [](Draft& d) { return &d.config.fit.horizon; }, "what shaders do about light below the horizon: \"clipped\"; or \"scaled\", and lobes are fitted for what is above alone (docs/accuracy.md)"),
+      key("fit.interpolation", [](Draft& d) { return &d.config.fit.interpolation; }, "big unrefined tables: \"automatic\" fits some of their nodes and interpolates between them, \"off\" fits each"),
       key("fit.target", [](Draft& d) { return &d.config.fit.target; }, "how the lobe is sampled: weighted lattice, or algorithm 1 with rejection as published"),
       key("fit.seed", [](Draft& d) { return &d.config.fit.seed; }, {0, most_seed}, "seed of what is random: sgd, rejection, random starts; without effect on the default settings"),
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 #include "core/platform.h"
@@ -16,5 +17,8 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 // The same as one of several files, which all take their places with files.commit().
 void add_file(platform::FileSet& files, const std::filesystem::path& path, std::string_view bytes);
+// Parts one after the other.
+void add_file(platform::FileSet& files, const std::filesystem::path& path,
+              std::span<const std::string_view> parts);
 
 }  // namespace ltc

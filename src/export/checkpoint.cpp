@@ -39,13 +39,14 @@ struct Arrays {
 
 Arrays to_arrays(const FinishedFits& fits) {
   Arrays arrays;
-  for (std::size_t flat = 0; !fits.rounds.empty() && flat < fits.rounds.front().size(); ++flat)
-    if (std::any_of(fits.rounds.begin(), fits.rounds.end(),
-                    [=](auto& round) { return round[flat].status != Status::skipped; }))
+  for (const FitRound& round : fits.rounds)
+    for (const auto& [flat, entry] : round.finished())
       arrays.entry.push_back(static_cast<std::int32_t>(flat));
-  for (const std::vector<FittedEntry>& round : fits.rounds)
+  std::ranges::sort(arrays.entry);
+  arrays.entry.erase(std::ranges::unique(arrays.entry).begin(), arrays.entry.end());
+  for (const FitRound& round : fits.rounds)
     for (const std::int32_t flat : arrays.entry) {
-      const FittedEntry& entry = round[static_cast<std::size_t>(flat)];
+      const FittedEntry entry = round[static_cast<std::size_t>(flat)];
       for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)
           arrays.matrix.push_back(entry.matrix(row, column));
@@ -184,10 +185,10 @@ FinishedFits read_checkpoint_unguarded(const Config& config, const std::vector<b
   require_entries(arrays.entry, needed.size(), path);
   FinishedFits fits;
   for (std::size_t round = 0; round < rounds; ++round) {
-    std::vector<FittedEntry>& entries = fits.rounds.emplace_back(needed.size());
+    FitRound& entries = fits.rounds.emplace_back(needed.size());
     for (std::size_t i = 0; i < listed; ++i)
-      entries[static_cast<std::size_t>(arrays.entry[i])] =
-          entry_of(arrays, round * listed + i, path);
+      entries.set(static_cast<std::size_t>(arrays.entry[i]),
+                  entry_of(arrays, round * listed + i, path));
   }
   return fits;
 }

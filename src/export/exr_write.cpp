@@ -12,6 +12,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 
 #include <array>
 #include <cmath>
@@ -22,6 +23,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
 #include "export/exr_layout.h"
@@ -46,19 +48,16 @@ void require_storable(const Table& table, std::size_t entry, float value, float 
                   file.string(), fmt::join(table.grid.indices(entry), ", "), value, largest));
 }
 
-std::vector<Pixels> gather_pixels(const Table& table, const TableFiles& paths, bool half) {
-  require_albedo(table, paths.front());
-  const std::vector<std::size_t> source = nearest_fitted(table);
+// Those of one file; `source` says whose values each entry has.
+Pixels gather_pixels(const Table& table, const std::vector<std::size_t>& source, std::size_t file,
+                     const fs::path& path, bool half) {
   const float largest = largest_value(half ? Precision::half : Precision::single);
-  std::vector<Pixels> pixels(texels_of(table));
-  for (std::size_t file = 0; file < pixels.size(); ++file) {
-    pixels[file].resize(channels_per_file * table.grid.size());
-    for (std::size_t entry = 0; entry < source.size(); ++entry) {
-      float* const first = &pixels[file][channels_per_file * pixel(table.grid, entry)];
-      for (std::size_t channel = 0; channel < channels_per_file; ++channel) {
-        first[channel] = channel_value(table, source[entry], channels_per_file * file + channel);
-        require_storable(table, source[entry], first[channel], largest, paths[file]);
-      }
+  Pixels pixels(channels_per_file * table.grid.size());
+  for (std::size_t entry = 0; entry < source.size(); ++entry) {
+    float* const first = &pixels[channels_per_file * pixel(table.grid, entry)];
+    for (std::size_t channel = 0; channel < channels_per_file; ++channel) {
+      first[channel] = channel_value(table, source[entry], channels_per_file * file + channel);
+      require_storable(table, source[entry], first[channel], largest, path);
     }
   }
   return pixels;
@@ -89,6 +88,20 @@ Imf::Header make_header(const Table& table, std::size_t file, Imf::PixelType typ
   return header;
 }
 
+// The library compresses by threads of its own for as long as this lives, if there is much to do:
+// the bytes are the same.
+class CompressingThreads {
+ public:
+  explicit CompressingThreads(std::size_t entries) {
+    constexpr std::size_t many = std::size_t{1} << 20;
+    if (entries >= many)
+      Imf::setGlobalThreadCount(processor_count());
+  }
+  ~CompressingThreads() { Imf::setGlobalThreadCount(0); }
+  CompressingThreads(const CompressingThreads&) = delete;
+  CompressingThreads& operator=(const CompressingThreads&) = delete;
+};
+
 // The file's bytes. Into memory first: the library does not report what fails when it closes a
 // file.
 template <class T>
@@ -104,8 +117,7 @@ std::string encode(const Imf::Header& header, const std::vector<T>& pixels, Imf:
   }
   Imf::StdOSStream stream;
   {
-    constexpr int no_threads = 0;
-    Imf::OutputFile file(stream, header, no_threads);
+    Imf::OutputFile file(stream, header, Imf::globalThreadCount());
     file.setFrameBuffer(buffer);
     file.writePixels(static_cast<int>(height));
   }  // the destructor writes the table of line offsets
@@ -124,17 +136,19 @@ std::string encode_file(const Table& table, std::size_t file, const Pixels& pixe
 // range.
 void add_exr(platform::FileSet& set, const Table& table, const TableFiles& paths,
              const WriteOptions& options) {
-  const std::vector<Pixels> pixels = gather_pixels(table, paths, options.half);
-  std::vector<std::string> encoded(pixels.size());
-  try {
-    for (std::size_t file = 0; file < encoded.size(); ++file)
-      encoded[file] = encode_file(table, file, pixels[file], options.half);
-  } catch (const Iex::BaseExc& error) {
-    throw IoError(
-        fmt::format("cannot write {}: {}", paths.front().string(), on_one_line(error.what())));
+  require_albedo(table, paths.front());
+  const std::vector<std::size_t> source = nearest_fitted(table);
+  const CompressingThreads threads(table.grid.size());
+  // One after the other: of a big table each takes gigabytes.
+  for (std::size_t file = 0; file < texels_of(table); ++file) {
+    const Pixels pixels = gather_pixels(table, source, file, paths[file], options.half);
+    try {
+      add_file(set, paths[file], encode_file(table, file, pixels, options.half));
+    } catch (const Iex::BaseExc& error) {
+      throw IoError(
+          fmt::format("cannot write {}: {}", paths[file].string(), on_one_line(error.what())));
+    }
   }
-  for (std::size_t file = 0; file < encoded.size(); ++file)
-    add_file(set, paths[file], encoded[file]);
 }
 
 }  // namespace

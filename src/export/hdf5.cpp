@@ -22,6 +22,9 @@
 #include "export/hdf5_guard.h"
 
 namespace ltc {
+
+Format hdf5_format();
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -171,9 +174,9 @@ std::vector<Status> read_status(const Hdf5Input& file, const fs::path& path,
   const std::vector<std::uint8_t> raw = file.values<std::uint8_t>("status", shape);
   std::vector<Status> status(raw.size());
   std::transform(raw.begin(), raw.end(), status.begin(), [&path](std::uint8_t value) {
-    if (value > static_cast<std::uint8_t>(Status::failed))
+    if (value > static_cast<std::uint8_t>(Status::interpolated))
       throw InputError(
-          fmt::format("{}: dataset status holds {}; allowed: 0 to 4", path.string(), value));
+          fmt::format("{}: dataset status holds {}; allowed: 0 to 5", path.string(), value));
     return static_cast<Status>(value);
   });
   return status;
@@ -233,7 +236,9 @@ void add_hdf5(platform::FileSet& set, const Table& table, const fs::path& path) 
   if (table.field && table.field->material)
     throw InputError(fmt::format("{}: HDF5 holds fields of all materials, and this is one of one",
                                  path.string()));
-  Hdf5Output file(path.string());
+  // Beside the entries some pages: attributes, axes, what the library keeps.
+  constexpr std::size_t all_else = std::size_t{4} << 20;
+  Hdf5Output file(path.string(), table.grid.size() * hdf5_format().entry_bytes + all_else);
   write_attributes(file, table);
   write_axes(file, table.grid);
   write_entries(file, table);

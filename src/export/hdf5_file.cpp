@@ -306,8 +306,13 @@ std::vector<T> Hdf5Input::values(const std::string& dataset,
   return values;
 }
 
-Hdf5Output::Hdf5Output(std::string shown_as)
+Hdf5Output::Hdf5Output(std::string shown_as, std::size_t expected_bytes)
     : name_(std::move(shown_as)), image_(std::make_unique<std::string>()) {
+  try {
+    image_->reserve(expected_bytes);
+  } catch (const std::bad_alloc&) {
+    // As it comes, then: what the library cannot have it says.
+  }
   keep_library_errors_off_the_terminal();
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);

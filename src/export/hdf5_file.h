@@ -80,7 +80,8 @@ class Hdf5Input {
 // could not write, neither says why nor can be closed in order. Throws IoError naming `shown_as`.
 class Hdf5Output {
  public:
-  explicit Hdf5Output(std::string shown_as);
+  // `expected_bytes`, about: with what room for them is taken at once.
+  explicit Hdf5Output(std::string shown_as, std::size_t expected_bytes = 0);
 
   void text(const std::string& object, const std::string& attribute, const std::string& value);
   // T: double, std::int32_t, std::uint64_t.

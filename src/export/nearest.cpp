@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "core/error.h"
 
@@ -19,6 +20,10 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 // it ends at such a neighbour.
 std::vector<std::size_t> nearest_fitted(const Table& table) {
   std::vector<std::size_t> source(table.grid.size(), none);
+  if (std::ranges::all_of(table.status, has_values)) {
+    std::iota(source.begin(), source.end(), std::size_t{0});
+    return source;
+  }
   std::vector<std::size_t> wave;
   for (std::size_t i = 0; i < source.size(); ++i) {
     if (has_values(table.status[i])) {

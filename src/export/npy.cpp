@@ -142,18 +142,32 @@ std::string limits_of_npy(const Grid& grid, Storage, TextureLayout) {
   return grid == Grid::paper(grid.shape()) ? "" : "holds the paper's grid only";
 }
 
+std::vector<float> matrices_of(const Table& table) {
+  std::vector<float> matrices(9 * table.grid.size(), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t flat = 0; flat < table.grid.size(); ++flat)
+    if (has_values(table.status[flat])) {
+      const Eigen::Matrix3f matrix = table.matrix_at(flat).cast<float>();
+      for (std::size_t i = 0; i < 9; ++i)
+        matrices[9 * flat + i] = matrix(static_cast<int>(i / 3), static_cast<int>(i % 3));
+    }
+  return matrices;
+}
+
 // NaN where an entry is skipped or failed.
 void add_npy(platform::FileSet& set, const Table& table, const fs::path& path) {
-  Table matrices = Table::empty(table.grid, Storage::matrix);
-  for (std::size_t i = 0; i < table.grid.size(); ++i)
-    if (has_values(table.status[i]))
-      matrices.set_stored(i, table.matrix_at(i));
-  const std::string_view values(reinterpret_cast<const char*>(matrices.stored.data()),
-                                matrices.stored.size() * sizeof(float));
   const auto [alphas, lambdas, thetas, phis] = table.grid.shape();
-  add_file(
-      set, path,
-      npy_header(std::array<std::size_t, 6>{alphas, lambdas, thetas, phis, 3, 3}).append(values));
+  const std::string header =
+      npy_header(std::array<std::size_t, 6>{alphas, lambdas, thetas, phis, 3, 3});
+  std::vector<float> made;
+  const bool as_stored =
+      table.storage == Storage::matrix && std::ranges::all_of(table.status, has_values);
+  if (!as_stored)
+    made = matrices_of(table);
+  const std::vector<float>& matrices = as_stored ? table.stored : made;
+  const std::string_view values(reinterpret_cast<const char*>(matrices.data()),
+                                matrices.size() * sizeof(float));
+  const std::array parts = {std::string_view(header), values};
+  add_file(set, path, parts);
 }
 
 // What the first two axes of such an array hold, by the symmetry that only alpha_x and alpha_y

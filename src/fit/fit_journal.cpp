@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "fit/fit_journal.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace ltc {
@@ -20,35 +19,45 @@ FittedEntry unfinished() {
 
 }  // namespace
 
-FitJournal::FitJournal(std::size_t nodes, int sweeps) {
-  for (int round = 0; round <= sweeps; ++round)  // each made in its place: they may be gigabytes
-    finished_.rounds.emplace_back(nodes, unfinished());
+FittedEntry FitRound::operator[](std::size_t flat) const {
+  const auto found = finished_.find(flat);
+  return found == finished_.end() ? unfinished() : found->second;
 }
 
-FitJournal::FitJournal(FinishedFits finished) : finished_(std::move(finished)) {
-  for (const std::vector<FittedEntry>& round : finished_.rounds)
-    count_ += static_cast<std::size_t>(std::count_if(round.begin(), round.end(), is_finished));
+void FitRound::set(std::size_t flat, const FittedEntry& entry) {
+  if (is_finished(entry))
+    finished_.insert_or_assign(flat, entry);
+  else
+    finished_.erase(flat);
 }
+
+FitJournal::FitJournal(std::size_t nodes, int sweeps) {
+  finished_.rounds.assign(static_cast<std::size_t>(sweeps) + 1, FitRound(nodes));
+}
+
+FitJournal::FitJournal(FinishedFits finished) : finished_(std::move(finished)) {}
 
 bool FitJournal::recall(int round, std::size_t flat, FittedEntry& entry) const {
   const std::lock_guard lock(mutex_);
-  const FittedEntry& found = finished_.rounds[static_cast<std::size_t>(round)][flat];
-  if (!is_finished(found))
+  const auto& finished = finished_.rounds[static_cast<std::size_t>(round)].finished();
+  const auto found = finished.find(flat);
+  if (found == finished.end())
     return false;
-  entry = found;
+  entry = found->second;
   return true;
 }
 
 void FitJournal::note(int round, std::size_t flat, const FittedEntry& entry) {
   const std::lock_guard lock(mutex_);
-  FittedEntry& place = finished_.rounds[static_cast<std::size_t>(round)][flat];
-  count_ += !is_finished(place) && is_finished(entry);
-  place = entry;
+  finished_.rounds[static_cast<std::size_t>(round)].set(flat, entry);
 }
 
 std::size_t FitJournal::count() const {
   const std::lock_guard lock(mutex_);
-  return count_;
+  std::size_t count = 0;
+  for (const FitRound& round : finished_.rounds)
+    count += round.finished().size();
+  return count;
 }
 
 FinishedFits FitJournal::finished() const {

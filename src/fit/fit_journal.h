@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <mutex>
 #include <vector>
 
@@ -11,10 +12,25 @@
 
 namespace ltc {
 
-// The finished fits of fit_table. Round 0 is the entries' own fits, round n the nth sweep; a round
-// has one entry a node of the grid, `skipped` where its fit is not finished (or not needed).
+// Those of one round: one entry a node of a grid, `skipped` where its fit is not finished (or not
+// needed). Only what is finished takes room: of a big table that is little.
+class FitRound {
+ public:
+  explicit FitRound(std::size_t nodes = 0) : nodes_(nodes) {}
+
+  std::size_t size() const { return nodes_; }
+  FittedEntry operator[](std::size_t flat) const;
+  void set(std::size_t flat, const FittedEntry& entry);
+  const std::map<std::size_t, FittedEntry>& finished() const { return finished_; }
+
+ private:
+  std::size_t nodes_;
+  std::map<std::size_t, FittedEntry> finished_;
+};
+
+// The finished fits of fit_table. Round 0 is the entries' own fits, round n the nth sweep.
 struct FinishedFits {
-  std::vector<std::vector<FittedEntry>> rounds;
+  std::vector<FitRound> rounds;
 };
 
 // What fit_table writes down while it works and looks up before it works. A fit is a function of
@@ -40,7 +56,6 @@ class FitJournal {
  private:
   mutable std::mutex mutex_;
   FinishedFits finished_;
-  std::size_t count_ = 0;
 };
 
 }  // namespace ltc

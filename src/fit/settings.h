@@ -20,6 +20,14 @@ constexpr EnumNames<SolverKind, 3> enum_names(SolverKind) {
             {SolverKind::l3_nelder_mead, "l3-nelder-mead"}}}};
 }
 
+// Whether big tables are fitted at some of their nodes and interpolated between them
+// (interpolate/between_fits.h).
+enum class InterpolationMode { automatic, off };
+constexpr EnumNames<InterpolationMode, 2> enum_names(InterpolationMode) {
+  return {"interpolation",
+          {{{InterpolationMode::automatic, "automatic"}, {InterpolationMode::off, "off"}}}};
+}
+
 // What is fitted: an LTC, or one that is folded first (ltc/folded.h).
 enum class LobeKind { single, folded };
 constexpr EnumNames<LobeKind, 2> enum_names(LobeKind) {
@@ -100,6 +108,7 @@ struct FitSettings {
   double second_crease = 0;          // of its second pair, above the first, [0, 10]; 0: none
   // Whether lobes are fitted for what is above the horizon alone; by Gauss-Newton alone.
   HorizonMode horizon = HorizonMode::clipped;
+  InterpolationMode interpolation = InterpolationMode::automatic;
   TargetKind target = TargetKind::weighted;
   std::uint64_t seed = 1;
   GaussNewtonSettings gauss_newton;

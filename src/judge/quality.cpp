@@ -82,33 +82,59 @@ Statistics nodes_below_horizon(const Table& table) {
   return statistics_of(shares);
 }
 
-// Which nodes are judged: all, or as many as the settings say, drawn without replacement.
-std::vector<std::size_t> nodes_to_judge(const Table& table, const QualitySettings& settings) {
+// Which nodes are judged: all, or at most so many, drawn without replacement.
+std::vector<std::size_t> nodes_to_judge(const Table& table, std::size_t most, std::uint64_t seed) {
   std::vector<std::size_t> nodes;
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat)
     if (has_values(table.status[flat]))
       nodes.push_back(flat);
-  if (nodes.size() <= settings.most_nodes)
+  if (nodes.size() <= most)
     return nodes;
-  Random random(settings.seed);
-  for (std::size_t i = 0; i < settings.most_nodes; ++i) {
+  Random random(seed);
+  for (std::size_t i = 0; i < most; ++i) {
     const auto left = static_cast<double>(nodes.size() - i);
     std::swap(nodes[i], nodes[i + static_cast<std::size_t>(random.uniform() * left)]);
   }
-  nodes.resize(settings.most_nodes);
+  nodes.resize(most);
   return nodes;
 }
 
 std::vector<double> judge_nodes(const Table& table, const QualitySettings& settings,
                                 const RunContext& run) {
   std::vector<double> losses(table.grid.size(), nan);
-  const std::vector<std::size_t> nodes = nodes_to_judge(table, settings);
+  const std::vector<std::size_t> nodes = nodes_to_judge(table, settings.most_nodes, settings.seed);
   parallel_for_each("judge nodes", nodes.size(), run, [&](std::size_t i) {
     const std::size_t flat = nodes[i];
     losses[flat] =
         relative_loss(node_judge(settings, flat), table.grid.lobe(flat), table.ltc_at(flat));
   });
   return losses;
+}
+
+std::vector<double> judge_node_fits(const Table& table, const QualitySettings& settings,
+                                    const RunContext& run) {
+  if (is_folded(table) || settings.fitted_nodes == 0)
+    return {};
+  // Not those of judge_nodes alone.
+  const std::vector<std::size_t> nodes =
+      nodes_to_judge(table, settings.fitted_nodes, settings.seed + 1);
+  FitSettings fit;
+  fit.horizon = settings.horizon;
+  const std::unique_ptr<Solver> solver = make_solver(fit);
+  std::vector<double> ratios(nodes.size(), nan);
+  parallel_for_each<FitWorkspacePointer>(
+      "fit nodes", nodes.size(), run, make_fit_workspace,
+      [&](std::size_t i, FitWorkspacePointer& workspace) {
+        FitRequest request;
+        request.lobe = table.grid.lobe(nodes[i]);
+        request.seed = entry_seed(fit.seed, nodes[i]);
+        request.progress = run.progress;
+        const LtcLobe own(solver->fit(request, *workspace, nullptr).matrix);
+        const PairJudgement judgement =
+            node_judge(settings, nodes[i]).judge_pair(request.lobe, table.ltc_at(nodes[i]), own);
+        ratios[i] = judgement.loss_a / judgement.loss_b;
+      });
+  return ratios;
 }
 
 std::vector<QueryQuality> judge_queries(const Table& table, const QualitySettings& settings,
@@ -196,6 +222,7 @@ QualityReport measure_quality(const Table& table, const QualitySettings& setting
   report.settings = settings;
   report.floors = std::move(floors);
   report.node_losses = judge_nodes(table, settings, run);
+  report.node_fit_ratios = judge_node_fits(table, settings, run);
   report.nodes_without_values = static_cast<std::size_t>(std::count_if(
       table.status.begin(), table.status.end(), [](Status s) { return !has_values(s); }));
   report.queries = judge_queries(table, settings, report.floors, run);

@@ -35,6 +35,9 @@ struct QualitySettings {
   std::size_t most_nodes = 4096;
   std::size_t node_samples = 16384;  // of HeldOutJudge
   std::size_t node_directions = 32;
+  // So many nodes, drawn at random, are fitted by themselves by default settings, to see what of a
+  // table's loss is not that of such fits; none of folded tables.
+  std::size_t fitted_nodes = 0;
   std::size_t queries = 600;  // random ones in `range`
   QueryRange range;
   std::size_t query_samples = 16384;
@@ -110,7 +113,11 @@ struct QualityReport {
 
   std::vector<double> node_losses;  // relative, one a node; NaN where it is not judged
   std::size_t nodes_without_values = 0;
-  Statistics nodes;  // of node_losses; its index is flat
+  // Loss over that of a fit of the same lobe, by the same samples, one for each of the fitted
+  // nodes.
+  std::vector<double> node_fit_ratios;
+  Statistics node_fits;  // of these; no index
+  Statistics nodes;      // of node_losses; its index is flat
 
   std::vector<QueryFloor> floors;     // one a query
   std::vector<QueryQuality> queries;  // likewise

@@ -151,6 +151,7 @@ void summarize_quality(QualityReport& report) {
   const auto& floors = report.floors;
   const Creases creases = report.settings.floor_fit.creases();
   report.nodes = statistics_of(report.node_losses);
+  report.node_fits = statistics_of(report.node_fit_ratios);
   count_states(report);
   report.query_losses =
       statistics_of(of_judged(report, [&](auto i) { return queries[i].relative_loss; }));

@@ -46,6 +46,7 @@ std::vector<Key> quality_keys() {
       key("quality.nodes", [](S& s) { return &s.quality.most_nodes; }, Range{0, 1 << 24}, "nodes judged, drawn at random where the table has more"),
       key("quality.node_samples", [](S& s) { return &s.quality.node_samples; }, Range{64, 1 << 20}, "samples of a node's lobe"),
       key("quality.node_directions", [](S& s) { return &s.quality.node_directions; }, Range{4, 4096}, "directions that they are projected on"),
+      key("quality.fitted_nodes", [](S& s) { return &s.quality.fitted_nodes; }, Range{0, 1 << 20}, "nodes drawn at random and fitted by themselves, to compare with"),
       key("quality.queries", [](S& s) { return &s.quality.queries; }, Range{0, 1 << 20}, "random lobes that the table is asked for"),
       key("quality.roughness_first", [](S& s) { return &s.quality.range.roughness_first; }, Range{0, 1}, "least perceptual roughness of queries"),
       key("quality.roughness_last", [](S& s) { return &s.quality.range.roughness_last; }, Range{0, 1}, "largest perceptual roughness of queries"),

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
 
 #include "align/align.h"
 #include "brdf/albedo.h"
@@ -19,6 +20,7 @@
 #include "core/version.h"
 #include "fit/fit_table.h"
 #include "fit/solver.h"
+#include "interpolate/between_fits.h"
 #include "pipeline/first_entries.h"
 #include "pipeline/post_process.h"
 #include "postprocess/normalise.h"
@@ -33,11 +35,34 @@ namespace {
 // Numbers of the field that a folded table starts from.
 constexpr int folded_start_size = 512;
 
+// The values of one entry, from its aligned matrix.
+void post_process_entry(const Grid& grid, std::size_t flat, const FittedEntry& entry, Table& table,
+                        double& zeroed) {
+  table.status[flat] = entry.status;
+  table.iterations[flat] = static_cast<std::uint16_t>(
+      std::min(entry.steps, static_cast<int>(std::numeric_limits<std::uint16_t>::max())));
+  if (!has_values(entry.status))
+    return;
+  const PostProcessed finished = post_process(grid.lobe(flat), table.storage, entry.matrix);
+  zeroed = finished.zeroed;
+  table.set_stored(flat, finished.stored);
+  table.sw_loss[flat] = static_cast<float>(entry.loss);
+}
+
 void align_all(std::vector<FittedEntry>& entries, const RunContext& run) {
   parallel_for_each("align", entries.size(), run, [&](std::size_t i) {
     if (has_values(entries[i].status))
       entries[i].matrix = align(entries[i].matrix);
   });
+}
+
+// The first of the largest, in whatever order they come.
+void note_zeroed(double zeroed, std::size_t flat, GenerateReport& report) {
+  if (zeroed > report.largest_zeroed ||
+      (zeroed == report.largest_zeroed && zeroed > 0 && flat < report.largest_zeroed_entry)) {
+    report.largest_zeroed = zeroed;
+    report.largest_zeroed_entry = flat;
+  }
 }
 
 // From aligned matrices to the table. At theta = 0 all phi share one lobe; their matrices are made
@@ -46,20 +71,26 @@ void post_process_all(const Grid& grid, const std::vector<FittedEntry>& entries,
                       const RunContext& run, GenerateReport& report) {
   for (std::size_t flat = 0; flat < entries.size(); ++flat) {
     run.throw_if_stopped();
-    const FittedEntry& entry = entries[flat];
-    table.status[flat] = entry.status;
-    table.iterations[flat] = static_cast<std::uint16_t>(
-        std::min(entry.steps, static_cast<int>(std::numeric_limits<std::uint16_t>::max())));
-    if (!has_values(entry.status))
-      continue;
-    const PostProcessed finished = post_process(grid.lobe(flat), table.storage, entry.matrix);
-    if (finished.zeroed > report.largest_zeroed) {
-      report.largest_zeroed = finished.zeroed;
-      report.largest_zeroed_entry = flat;
-    }
-    table.set_stored(flat, finished.stored);
-    table.sw_loss[flat] = static_cast<float>(entry.loss);
+    double zeroed = 0;
+    post_process_entry(grid, flat, entries[flat], table, zeroed);
+    note_zeroed(zeroed, flat, report);
   }
+}
+
+// Big tables: fits at some nodes, and what lies between them.
+void fill_between_fits(const Config& config, const RunContext& run, FitJournal* journal,
+                       Table& table, GenerateReport& report) {
+  std::mutex mutex;
+  const BetweenFitsReport made = fill_between_fits(
+      config.grid, config.fit, {}, run, journal, [&](std::size_t flat, const FittedEntry& entry) {
+        double zeroed = 0;
+        post_process_entry(config.grid, flat, entry, table, zeroed);
+        if (zeroed == 0)
+          return;
+        const std::lock_guard lock(mutex);
+        note_zeroed(zeroed, flat, report);
+      });
+  report.fits = made.fits;
 }
 
 bool has_values_in(const Table* table, std::size_t flat) {
@@ -74,6 +105,13 @@ std::vector<bool> values_behind(const std::vector<bool>& needed, const RefineCon
   return present;
 }
 
+// The table and what its files are made in, one after the other; or what its values are made from.
+std::size_t memory_between_fits(const Config& config) {
+  constexpr std::size_t of_entry = 12 * sizeof(float) + 4, of_files = 60;
+  return config.grid.size() * of_entry +
+         std::max(config.grid.size() * of_files, between_fits_memory_bytes(config.grid));
+}
+
 // What making the table takes of memory, about: its refinement, and the rest.
 struct MemoryNeeded {
   std::size_t table, refinement;
@@ -83,6 +121,8 @@ MemoryNeeded memory_needed(const Config& config, const std::vector<bool>& needed
   // The table, and its values again in every file that is made of it; fits, those of a sweep, and
   // those in the journal and in a checkpoint.
   constexpr std::size_t of_value = 5 * (12 * sizeof(float) + 4);
+  if (is_interpolated(config, needed))
+    return {memory_between_fits(config), 0};
   const auto fits = static_cast<std::size_t>(2 + 2 * (1 + sweep_count(config.fit)));
   MemoryNeeded memory{
       config.grid.size() * (of_value + sizeof(PlannedEntry) + fits * sizeof(FittedEntry)), 0};
@@ -176,13 +216,15 @@ void measure_losses(const RunContext& run, Table& table) {
     measure_losses<Eigen::Matrix3d>(present, run, table);
 }
 
-void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
+// `representative_of` a node, or PlannedEntry::none, as in a plan by symmetry.
+template <typename Representative>
+void integrate_albedos(const Grid& grid, const Representative& representative_of,
                        const RunContext& run, Table& table) {
   const AlbedoRule rule;
   spread_for_each<int>(
-      "albedo", Spreading::moving, plan.size(), run, [] { return 0; },
+      "albedo", Spreading::moving, grid.size(), run, [] { return 0; },
       [&](std::size_t flat, int) {
-        if (plan[flat].representative != flat)
+        if (representative_of(flat) != flat)
           return;
         const Albedo albedo = integrate_albedo(grid.lobe(flat), rule);
         table.amplitude[flat] = static_cast<float>(albedo.amplitude);
@@ -192,11 +234,12 @@ void integrate_albedos(const Grid& grid, const std::vector<PlannedEntry>& plan,
         take(bytes_of(table.amplitude[flat]));
         take(bytes_of(table.fresnel[flat]));
       });
-  for (std::size_t flat = 0; flat < plan.size(); ++flat) {
-    if (plan[flat].representative == PlannedEntry::none)
+  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    const std::size_t representative = representative_of(flat);
+    if (representative == PlannedEntry::none)
       continue;
-    table.amplitude[flat] = table.amplitude[plan[flat].representative];
-    table.fresnel[flat] = table.fresnel[plan[flat].representative];
+    table.amplitude[flat] = table.amplitude[representative];
+    table.fresnel[flat] = table.fresnel[representative];
   }
 }
 
@@ -320,6 +363,19 @@ void describe(const Config& config, Table& table) {
 
 }  // namespace
 
+bool is_interpolated(const Config& config, const std::vector<bool>& needed) {
+  // Up to so many lobes fits take seconds.
+  constexpr std::size_t most_fitted = 20'000;
+  const FitSettings& fit = config.fit;
+  const bool may = fit.interpolation == InterpolationMode::automatic &&
+                   fit.solver == SolverKind::gauss_newton && fit.lobe == LobeKind::single &&
+                   fit.horizon == HorizonMode::clipped && sweep_count(fit) == 0 &&
+                   config.refine.steps == 0 && config.field.size == 0 &&
+                   config.storage != Storage::inverse;
+  return may && has_long_axis(config.grid) && EqualLobes(config.grid).count() > most_fitted &&
+         std::ranges::find(needed, false) == needed.end();
+}
+
 Cost cost_of(const Config& config, const std::vector<bool>& needed, const RefineContext& context) {
   const MemoryNeeded memory = memory_needed(config, needed, context);
   Cost cost;
@@ -331,7 +387,10 @@ Cost cost_of(const Config& config, const std::vector<bool>& needed, const Refine
   const bool whole = std::find(needed.begin(), needed.end(), false) == needed.end();
   if (config.storage == Storage::folded)
     cost.queries = static_cast<std::size_t>(config.field.queries);
-  if (config.storage != Storage::folded || config.refine.steps == 0)
+  cost.interpolated = is_interpolated(config, needed);
+  if (cost.interpolated)
+    cost.fits = estimated_fits(config.grid);
+  else if (config.storage != Storage::folded || config.refine.steps == 0)
     cost.fits =
         whole && !starts_in_closed_form(config)
             ? EqualLobes(config.grid).count()
@@ -394,6 +453,20 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     return table;
   }
 
+  if (is_interpolated(config, needed)) {
+    Table table = Table::empty(config.grid, config.storage);
+    result.fits_of_whole_grid = EqualLobes(config.grid).count();
+    fill_between_fits(config, run, journal, table, result);
+    finish_stage("fit");
+    describe(config, table);
+    table.refined = false;
+    const EqualLobes equal(config.grid);
+    integrate_albedos(
+        config.grid, [&](std::size_t flat) { return equal.first_of(flat); }, run, table);
+    finish_stage("albedo");
+    return table;
+  }
+
   const std::vector<PlannedEntry> plan = plan_by_symmetry(config.grid, needed, run);
   const std::size_t lobes = representative_count(plan);
   Table table = Table::empty(config.grid, config.storage);
@@ -429,7 +502,8 @@ Table generate_table(const Config& config, const std::vector<bool>& needed, cons
     table.refined = result.refine->kept;
     finish_stage("refine");
   }
-  integrate_albedos(config.grid, plan, run, table);
+  integrate_albedos(
+      config.grid, [&](std::size_t flat) { return plan[flat].representative; }, run, table);
   finish_stage("albedo");
   return table;
 }

@@ -38,9 +38,14 @@ struct RefineContext {
                                     // part in look-ups and stay as they are
 };
 
+// Whether the table is made by interpolate/between_fits.h: all of it, unrefined, by a plain
+// Gauss-Newton fit, with more than 20,000 lobes and a long axis.
+bool is_interpolated(const Config& config, const std::vector<bool>& needed);
+
 // What making a table costs, told before it is made.
 struct Cost {
   std::size_t fits = 0;
+  bool interpolated = false;     // fits are about so many, and lie at some of the nodes
   std::size_t memory_bytes = 0;  // about
   std::size_t queries = 0;       // look-ups that nodes are refined on; 0: no refinement
 };

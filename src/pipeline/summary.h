@@ -13,7 +13,7 @@
 namespace ltc {
 
 struct TableSummary {
-  std::array<std::size_t, 5> entries_by_status{};  // indexed by Status
+  std::array<std::size_t, 6> entries_by_status{};  // indexed by Status
   Statistics losses;  // sliced-Wasserstein; of the entries with a finite one
   // Flat indices by falling loss, at most as many as asked for, each lobe once.
   std::vector<std::size_t> worst;

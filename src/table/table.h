@@ -18,20 +18,22 @@
 namespace ltc {
 
 enum class Status : std::uint8_t {
-  skipped = 0,   // not needed; its values are NaN
-  fitted = 1,    // fitted by the solver
-  copied = 2,    // copied, rotated or mirrored from an entry that symmetry makes equal
-  analytic = 3,  // closed form
-  failed = 4,    // the solver found no finite matrix; its values are NaN
+  skipped = 0,       // not needed; its values are NaN
+  fitted = 1,        // fitted by the solver
+  copied = 2,        // copied, rotated or mirrored from an entry that symmetry makes equal
+  analytic = 3,      // closed form
+  failed = 4,        // the solver found no finite matrix; its values are NaN
+  interpolated = 5,  // between fits (interpolate/between_fits.h)
 };
 
-constexpr EnumNames<Status, 5> enum_names(Status) {
+constexpr EnumNames<Status, 6> enum_names(Status) {
   return {"status",
           {{{Status::skipped, "skipped"},
             {Status::fitted, "fitted"},
             {Status::copied, "copied"},
             {Status::analytic, "analytic"},
-            {Status::failed, "failed"}}}};
+            {Status::failed, "failed"},
+            {Status::interpolated, "interpolated"}}}};
 }
 
 // Whether entries of this status have values; those of the others are NaN.

@@ -42,7 +42,11 @@ TEST(Cost, RefinementCostsMore) {
 
 // 16,384 fits or so are told, with files of 12 + 12 + 9 floats and three bytes an entry.
 TEST(Cost, IsSaidOfLongRunsAlone) {
-  const Config quick = with_nodes(8, 5), slow = with_nodes(16, 0);
+  const Config quick = with_nodes(8, 5);
+  Config slow = with_nodes(16, 0);
+  EXPECT_NE(cost_text(slow, cost_of_whole(slow)).find("the others interpolated; "),
+            std::string::npos);
+  slow.fit.interpolation = InterpolationMode::off;
   EXPECT_EQ(cost_text(quick, cost_of_whole(quick)), "");
   const Cost cost = cost_of_whole(slow);
   const std::string text = cost_text(slow, cost);

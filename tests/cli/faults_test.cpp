@@ -178,11 +178,12 @@ void write_failures(const TemporaryDirectory& folder, std::size_t count) {
   std::erase(overrides, "--set");
   const Config config = load_config(std::nullopt, overrides);
   FinishedFits fits = FitJournal(config.grid.size(), 0).finished();
-  for (std::size_t flat = 0; flat < count; ++flat) {
-    fits.rounds[0][flat].matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
-    fits.rounds[0][flat].loss = std::numeric_limits<double>::quiet_NaN();
-    fits.rounds[0][flat].status = Status::failed;
-  }
+  FittedEntry failed;
+  failed.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
+  failed.loss = std::numeric_limits<double>::quiet_NaN();
+  failed.status = Status::failed;
+  for (std::size_t flat = 0; flat < count; ++flat)
+    fits.rounds[0].set(flat, failed);
   write_checkpoint(config, std::vector<bool>(config.grid.size(), true), fits, folder / checkpoint);
 }
 

@@ -39,9 +39,9 @@ FinishedFits example() {
                                    Status::failed};
   double value = 1.0 / 3;
   for (int round = 0; round < 2; ++round) {
-    std::vector<FittedEntry>& entries = fits.rounds.emplace_back();
+    FitRound& entries = fits.rounds.emplace_back(16);
     for (std::size_t flat = 0; flat < 16; ++flat) {
-      FittedEntry& entry = entries.emplace_back();
+      FittedEntry entry;
       for (double& element : entry.matrix.reshaped())
         element = value += 1.0 / 7;
       entry.loss = value * 1e-9;
@@ -53,6 +53,7 @@ FinishedFits example() {
         entry.matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
         entry.loss = std::numeric_limits<double>::quiet_NaN();
       }
+      entries.set(flat, entry);
     }
   }
   return fits;
@@ -83,10 +84,10 @@ TEST(Checkpoint, IsHdf5ThatOthersRead) {
 TEST(Checkpoint, HoldsWhatIsFinishedAlone) {
   const TemporaryDirectory folder;
   FinishedFits fits = example();
-  for (std::vector<FittedEntry>& round : fits.rounds)
+  for (FitRound& round : fits.rounds)
     for (std::size_t flat = 0; flat < round.size(); ++flat)
       if (flat != 6)
-        round[flat].status = Status::skipped;
+        round.set(flat, {});
   write_checkpoint(config_with(), all_needed, fits, folder / "c.h5");
   const FinishedFits read = read_checkpoint(config_with(), all_needed, folder / "c.h5");
   EXPECT_TRUE(test::same_bits(read.rounds[0], fits.rounds[0]));

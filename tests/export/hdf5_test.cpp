@@ -264,7 +264,7 @@ TEST(Hdf5, DamagedFilesAreRefusedByNameAndFault) {
       {"matrix_has_infinity", "matrix of entry (1, 1, 2, 3) is not finite"},
       {"amplitude_is_group", "dataset fresnel is missing"},
       {"status_is_i8", "status has another type than u8"},
-      {"status_of_5", "status holds 5; allowed: 0 to 4"},
+      {"status_of_6", "status holds 6; allowed: 0 to 5"},
       {"iterations_are_u32", "iterations has another type than u16"},
   };
   std::set<std::string> expected = {"matrix_rows_for_columns", "format_is_bytes", "other_seed",

@@ -111,10 +111,10 @@ TEST(FitJournal, AnyPartOfARunMakesTheSameTable) {
   for (const double share : {0.0, 0.1, 0.5, 0.9, 1.0}) {
     SCOPED_TRACE(share);
     FinishedFits part = all;
-    for (std::vector<FittedEntry>& round : part.rounds)
-      for (FittedEntry& entry : round)
+    for (FitRound& round : part.rounds)
+      for (std::size_t flat = 0; flat < round.size(); ++flat)
         if (random.uniform() >= share)
-          entry.status = Status::skipped;
+          round.set(flat, {});
     FitJournal journal(part);
     EXPECT_TRUE(same_bits(fit(&journal), undisturbed));
     EXPECT_EQ(journal.count(), FitJournal(all).count());
@@ -125,8 +125,7 @@ TEST(FitJournal, AnyPartOfARunMakesTheSameTable) {
 std::size_t count_in_rounds(const FinishedFits& fits, std::size_t rounds) {
   std::size_t count = 0;
   for (std::size_t round = 0; round < rounds; ++round)
-    for (const FittedEntry& entry : fits.rounds[round])
-      count += entry.status != Status::skipped;
+    count += fits.rounds[round].finished().size();
   return count;
 }
 
@@ -164,9 +163,11 @@ TEST(FitJournal, StoppedAnywhereAndGoneOnMakesTheSameTable) {
 TEST(FitJournal, WhatItKnowsIsNotFittedAgain) {
   FinishedFits all = all_fits();
   std::size_t planted = 0;
-  while (all.rounds.back().at(planted).status != Status::fitted)
+  while (all.rounds.back()[planted].status != Status::fitted)
     ++planted;
-  all.rounds.back()[planted].loss = 12345;
+  FittedEntry entry = all.rounds.back()[planted];
+  entry.loss = 12345;
+  all.rounds.back().set(planted, entry);
   FitJournal journal(all);
   EXPECT_EQ(fit(&journal)[planted].loss, 12345);
 }

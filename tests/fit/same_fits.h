@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "fit/fit_journal.h"
 #include "fit/fit_table.h"
 
 namespace ltc::test {
@@ -18,7 +19,9 @@ inline bool same_bits(const FittedEntry& a, const FittedEntry& b) {
          a.status == b.status;
 }
 
-inline bool same_bits(const std::vector<FittedEntry>& a, const std::vector<FittedEntry>& b) {
+// Of vectors or rounds.
+template <typename Entries>
+bool same_bits(const Entries& a, const Entries& b) {
   if (a.size() != b.size())
     return false;
   for (std::size_t i = 0; i < a.size(); ++i)

@@ -162,7 +162,7 @@ const Reader& unguarded_checkpoint_reader() {
 
 std::string good_checkpoint(const fs::path& folder) {
   FinishedFits fits;
-  fits.rounds.assign(2, std::vector<FittedEntry>(checkpointed_entries.size()));
+  fits.rounds.assign(2, FitRound(checkpointed_entries.size()));
   write_checkpoint(checkpointed_config(), checkpointed_entries, fits, folder / "good.h5");
   std::ifstream file(folder / "good.h5", std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

@@ -16,7 +16,7 @@ Table small_table() {
 
 TEST(TableSummary, OfNothingIsNoNumber) {
   const TableSummary summary = summarize(small_table(), 5);
-  EXPECT_EQ(summary.entries_by_status, (std::array<std::size_t, 5>{16, 0, 0, 0, 0}));
+  EXPECT_EQ(summary.entries_by_status, (std::array<std::size_t, 6>{16, 0, 0, 0, 0, 0}));
   EXPECT_EQ(summary.losses.count, 0u);
   EXPECT_TRUE(std::isnan(summary.losses.mean));
   EXPECT_TRUE(std::isnan(summary.losses.largest));
@@ -35,7 +35,7 @@ TEST(TableSummary, IgnoresEntriesWithoutALoss) {
   set(12, Status::fitted, 0.25f);
   set(13, Status::failed, std::nanf(""));
   const TableSummary summary = summarize(table, 3);
-  EXPECT_EQ(summary.entries_by_status, (std::array<std::size_t, 5>{11, 2, 1, 1, 1}));
+  EXPECT_EQ(summary.entries_by_status, (std::array<std::size_t, 6>{11, 2, 1, 1, 1, 0}));
   EXPECT_EQ(summary.losses.count, 4u);
   EXPECT_EQ(summary.losses.mean, 0.25);  // exact: sums of powers of two
   EXPECT_EQ(summary.losses.largest, 0.5);
