@@ -11,10 +11,19 @@
 namespace ltc {
 namespace {
 
-// The defaults with fewer or more samples everywhere.
+// On samples, fewer or more of them everywhere than the defaults say.
 FitSettings gauss_newton(int samples, int directions, int target_samples) {
   FitSettings fit;
+  fit.gauss_newton.loss = LossKind::samples;
   fit.gauss_newton.samples = samples;
+  fit.gauss_newton.directions = directions;
+  fit.gauss_newton.target_samples = target_samples;
+  return fit;
+}
+
+// By arcs, with so many directions and thresholds.
+FitSettings arcs(int directions, int target_samples) {
+  FitSettings fit;
   fit.gauss_newton.directions = directions;
   fit.gauss_newton.target_samples = target_samples;
   return fit;
@@ -100,9 +109,13 @@ std::vector<BenchSetting> bench_settings(std::uint64_t seed) {
       {"gn-256x16", "256 × 16", "256 samples, 16 directions", gauss_newton(256, 16, 1024)},
       {"gn-512x24", "512 × 24", "512 samples, 24 directions", gauss_newton(512, 24, 2048)},
       {"gn-1024x32", "1024 × 32", "1024 samples, 32 directions", gauss_newton(1024, 32, 4096)},
-      {"default", "default", "config/default.toml: up to 4096 samples, 32 directions, 1 start",
-       FitSettings{}},
+      {"gn-4096x32", "4096 × 32", "up to 4096 samples, 32 directions",
+       gauss_newton(4096, 32, 8192)},
       {"gn-4096x64", "4096 × 64", "4096 samples, 64 directions", gauss_newton(4096, 64, 16384)},
+      {"arcs-16", "16 × 16 arcs", "by arcs: 16 directions and thresholds", arcs(16, 2048)},
+      {"default", "default", "config/default.toml: 32 directions and thresholds by arcs, 1 start",
+       FitSettings{}},
+      {"arcs-64", "64 × 64 arcs", "by arcs: 64 directions and thresholds", arcs(64, 65536)},
       {"reference", "reference", "config/reference.toml without sweeps", reference()},
       {"default-2-starts", "2 starts", "the default from two starting points", with_starts(2)},
       {"default-3-starts", "3 starts", "the default from three starting points", with_starts(3)},
