@@ -42,7 +42,8 @@ std::span<std::byte> bytes_of_text(std::string& text) {
   return std::as_writable_bytes(std::span(text));
 }
 
-void share(Ranks& ranks, std::size_t size, int from, std::string& text) {
+// No rank may leave before the others have it: they would wait.
+void share(Ranks& ranks, std::size_t size, int from, std::string& text) noexcept {
   text.resize(size);
   if (size > 0)
     ranks.broadcast(bytes_of_text(text), from);

@@ -50,6 +50,41 @@ class RankShares {
 // a small part of it.
 double seconds_until_meeting(const std::vector<RankState>& states);
 
+// After a meeting: what each rank has done since becomes known to all, in turn. No rank may leave
+// in the middle of it, for the others would wait for it: where memory is lacking, the process ends,
+// and its launcher ends them all.
+template <typename Visit, typename Heard>
+void tell_done(Ranks& ranks, const RankShares& shares, const std::vector<RankState>& states,
+               Visit& visit, Heard& heard) noexcept {
+  std::vector<std::byte> bytes;
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    const std::size_t done = states[static_cast<std::size_t>(rank)].done;
+    const auto each_part = [&](auto&& take) {
+      for (std::size_t i = 0; i < done; ++i)
+        visit(shares.piece(rank, i), take);
+    };
+    std::size_t size = 0, at = 0;
+    each_part([&](std::span<std::byte> part) { size += part.size(); });
+    bytes.resize(size);
+    const bool is_own = rank == ranks.rank();
+    if (is_own)
+      each_part([&](std::span<std::byte> part) {
+        std::memcpy(bytes.data() + at, part.data(), part.size());
+        at += part.size();
+      });
+    if (size > 0)
+      ranks.broadcast(bytes, rank);
+    if (is_own)
+      continue;
+    each_part([&](std::span<std::byte> part) {
+      std::memcpy(part.data(), bytes.data() + at, part.size());
+      at += part.size();
+    });
+    for (std::size_t i = 0; i < done; ++i)
+      heard(shares.piece(rank, i));
+  }
+}
+
 // Calls work(i, state) as parallel_for of i in [0, count), each i on one of the ranks. Afterwards
 // all of them have the results: visit(i, take) calls take(bytes) for everything that work(i, ...)
 // writes, as bytes_of; their sizes are the same on all ranks. `heard(i)` is called for each i that
@@ -66,7 +101,6 @@ void spread_for(Spreading spreading, std::size_t count, const RunContext& run,
   const int own = ranks.rank();
   RankShares shares(spreading, count, ranks.size());
   std::vector<RankState> states(static_cast<std::size_t>(ranks.size()));
-  std::vector<std::byte> bytes;
   while (!shares.all_done()) {
     const Clock::time_point began = Clock::now();
     const std::chrono::duration<double> most(seconds_until_meeting(states));
@@ -79,32 +113,7 @@ void spread_for(Spreading spreading, std::size_t count, const RunContext& run,
     state.seconds_a_piece =
         passed.count() * run.threads / static_cast<double>(std::max<std::size_t>(state.done, 1));
     states = meet(ranks, count, state);
-    for (int rank = 0; rank < ranks.size(); ++rank) {
-      const std::size_t done = states[static_cast<std::size_t>(rank)].done;
-      const auto each_part = [&](auto&& take) {
-        for (std::size_t i = 0; i < done; ++i)
-          visit(shares.piece(rank, i), take);
-      };
-      std::size_t size = 0;
-      each_part([&](std::span<std::byte> part) { size += part.size(); });
-      bytes.resize(size);
-      std::size_t at = 0;
-      if (rank == own)
-        each_part([&](std::span<std::byte> part) {
-          std::memcpy(bytes.data() + at, part.data(), part.size());
-          at += part.size();
-        });
-      if (size > 0)
-        ranks.broadcast(bytes, rank);
-      if (rank == own)
-        continue;
-      each_part([&](std::span<std::byte> part) {
-        std::memcpy(part.data(), bytes.data() + at, part.size());
-        at += part.size();
-      });
-      for (std::size_t i = 0; i < done; ++i)
-        heard(shares.piece(rank, i));
-    }
+    tell_done(ranks, shares, states, visit, heard);
     shares.note_done(states);
   }
 }
