@@ -17,6 +17,7 @@
 #include "core/stopwatch.h"
 #include "export/checkpoint.h"
 #include "pipeline/checkpoint_keeper.h"
+#include "pipeline/first_entries.h"
 #include "pipeline/work.h"
 
 namespace ltc {
@@ -35,6 +36,11 @@ void require_fits(const Config& config, const Work& work) {
         config.field.size > 0               ? "a field"
         : config.storage == Storage::folded ? "a folded table"
                                             : "this table"));
+  if (is_interpolated(config, work.to_fit))
+    throw InputError(
+        "a big table chooses its fits by those that it has, which no shard has all of; expected "
+        "fit.interpolation = \"off\" for shards that fit every entry; or several machines share "
+        "the work of one run as ranks of a build with MPI (mpirun)");
 }
 
 bool is_finished(const FinishedFits& fits, std::size_t flat) {
@@ -127,8 +133,10 @@ void add_shard(const Config& config, const std::vector<bool>& needed,
   const std::vector<std::size_t> expected = entries_of_shard(plan, shard);
   std::size_t finished = 0;
   for (const std::size_t flat : expected) {
-    finished += is_finished(own, flat);
-    all.rounds.front()[flat] = own.rounds.front()[flat];
+    if (!is_finished(own, flat))
+      continue;
+    ++finished;
+    all.rounds.front().set(flat, own.rounds.front()[flat]);
   }
   if (finished < expected.size())
     faults.add("shard {} of {} is incomplete, {} of {} fits: {}; {} goes on with it", shard.number,
@@ -147,7 +155,7 @@ ShardReport make_shard(const RunRequest& request, const Shard& shard, const RunC
   const Work work = plan_work(request, context.ranks);
   require_fits(request.config, work);
   const std::vector<PlannedEntry> plan =
-      plan_by_symmetry(request.config.grid, work.to_fit, context);
+      plan_of_fits(request.config, plan_by_symmetry(request.config.grid, work.to_fit, context));
   ShardReport report;
   report.file = shard_file(request.config, request.folder, shard);
   report.fits = entries_of_shard(plan, shard).size();
@@ -176,7 +184,8 @@ FinishedFits merged_shards(const Config& config, const std::vector<bool>& needed
     else if (number > first)
       faults.add("shards {} to {} of {} are missing", first, number - 1, count);
   }
-  const std::vector<PlannedEntry> plan = plan_by_symmetry(config.grid, needed);
+  const std::vector<PlannedEntry> plan =
+      plan_of_fits(config, plan_by_symmetry(config.grid, needed));
   // Each round in its place: what is not finished there has no values.
   FinishedFits all = FitJournal(config.grid.size(), sweep_count(config.fit)).finished();
   for (const auto& [number, file] : found)
