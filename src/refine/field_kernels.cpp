@@ -17,8 +17,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, 16>;
 using V = hn::Vec<Floats>;
 
-// So many columns of a and b at once keep all sums in registers; a stretch of columns in the cache.
-constexpr std::size_t height = 4, width = 3, stretch = 1024;
+// So many columns of a and b at once keep all sums in registers, and stretches of so many tiles of
+// them the nearest cache.
+constexpr std::size_t height = 4, width = 3, stretch = 256, tiles = 4;
 
 // The products of height columns of a and width of b over a stretch; columns beyond the last one
 // are the last one again.
@@ -69,14 +70,19 @@ void MultiplyTransposed(const Columns& a, const Columns& b, double* result, std:
     std::fill_n(result + j * stride, a.count, 0.0);
   for (std::size_t begin = 0; begin < a.rows; begin += stretch) {
     const std::size_t end = std::min(begin + stretch, a.rows);
-    for (std::size_t j = 0; j < b.count; j += width)
-      for (std::size_t i = 0; i < a.count; i += height) {
-        float products[width][height];
-        multiply_tile(a, i, b, j, begin, end, products);
-        for (std::size_t column = 0; column < width && j + column < b.count; ++column)
-          for (std::size_t row = 0; row < height && i + row < a.count; ++row)
-            result[(j + column) * stride + i + row] += static_cast<double>(products[column][row]);
-      }
+    const auto add_tile = [&](std::size_t i, std::size_t j) {
+      float products[width][height];
+      multiply_tile(a, i, b, j, begin, end, products);
+      for (std::size_t column = 0; column < width && j + column < b.count; ++column)
+        for (std::size_t row = 0; row < height && i + row < a.count; ++row)
+          result[(j + column) * stride + i + row] += static_cast<double>(products[column][row]);
+    };
+    constexpr std::size_t block_height = tiles * height, block_width = tiles * width;
+    for (std::size_t left = 0; left < b.count; left += block_width)
+      for (std::size_t top = 0; top < a.count; top += block_height)
+        for (std::size_t j = left; j < std::min(left + block_width, b.count); j += width)
+          for (std::size_t i = top; i < std::min(top + block_height, a.count); i += height)
+            add_tile(i, j);
   }
 }
 

@@ -171,20 +171,23 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
     for (std::size_t b = a; b < parts; ++b)
       blocks.emplace_back(a, b);
   const auto size_of = [&](std::size_t part) { return first_[part + 1] - first_[part]; };
+  // Query by query once, for models lie far apart.
+  Eigen::MatrixXf curvatures(count, static_cast<Eigen::Index>(blocks.size()));
+  Eigen::MatrixXd gradients(count, static_cast<Eigen::Index>(parts));
+  for (Eigen::Index q = 0; q < count; ++q) {
+    const auto at = static_cast<std::size_t>(q);
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      curvatures(q, static_cast<Eigen::Index>(i)) = static_cast<float>(
+          weights[at] * models_[at].curvature(static_cast<Eigen::Index>(blocks[i].first),
+                                              static_cast<Eigen::Index>(blocks[i].second)));
+    gradients.row(q) = weights[at] * models_[at].gradient.transpose();
+  }
   // One block is one thread's: sums have a fixed order.
   spread_for<Eigen::MatrixXf>(
       Spreading::moving, blocks.size(), run, [] { return Eigen::MatrixXf(); },
       [&](std::size_t i, Eigen::MatrixXf& weighted) {
         const auto [a, b] = blocks[i];
-        const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
-        Eigen::VectorXf curvature(count);
-        Eigen::VectorXd gradient(count);
-        for (Eigen::Index q = 0; q < count; ++q) {
-          const auto at = static_cast<std::size_t>(q);
-          curvature[q] = static_cast<float>(weights[at] * models_[at].curvature(row, column));
-          gradient[q] = weights[at] * models_[at].gradient[row];
-        }
-        weighted.noalias() = curvature.asDiagonal() * rows_[b];
+        weighted.noalias() = curvatures.col(static_cast<Eigen::Index>(i)).asDiagonal() * rows_[b];
         if (rows_[a].cols() == 0 || rows_[b].cols() == 0)
           return;
         kernels::multiply_transposed(columns_of(rows_[a]), columns_of(weighted),
@@ -192,7 +195,8 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
                                      static_cast<std::size_t>(n));
         if (a == b)
           for (Eigen::Index i = 0; i < rows_[a].cols(); ++i)
-            result.gradient[first_[a] + i] = rows_[a].col(i).cast<double>().dot(gradient);
+            result.gradient[first_[a] + i] = rows_[a].col(i).cast<double>().dot(
+                gradients.col(static_cast<Eigen::Index>(a)));
       },
       [&](std::size_t i, auto&& take) {
         const auto [a, b] = blocks[i];

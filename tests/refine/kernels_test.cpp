@@ -72,7 +72,7 @@ TEST(RefineKernels, TransposedProductsAreThoseOfEigen) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Constant(9, 5, 42);
   kernels::multiply_transposed({a.data(), 2053, 7}, {b.data(), 2053, 5}, result.data(), 9);
   const Eigen::MatrixXd expected = a.cast<double>().transpose() * b.cast<double>();
-  // 2053 products below one, summed in single precision in stretches of 1024.
+  // 2053 products below one, summed in single precision in stretches of 256.
   EXPECT_LT((result.topRows(7) - expected).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_EQ(result(7, 0), 42);
 }
