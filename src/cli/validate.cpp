@@ -26,7 +26,7 @@ struct Arguments {
   std::optional<ReadAs> layout;
   ConfigArguments config;
   std::string json, report;  // empty: none
-  bool no_quality = false;
+  bool no_quality = false, no_invariants = false;
   int threads = processor_count();
 };
 
@@ -53,8 +53,9 @@ void validate(const Arguments& arguments, Files& files) {
   const ValidateSettings settings =
       load_validate_settings(arguments.config.path(), arguments.config.overrides,
                              settings_for(report.table), ConfigArguments::override_option);
-  report.invariants = check_invariants(report.table, settings.invariants, run,
-                                       contents_of(arguments.table, report.table));
+  if (!arguments.no_invariants)
+    report.invariants = check_invariants(report.table, settings.invariants, run,
+                                         contents_of(arguments.table, report.table));
   if (!arguments.no_quality) {
     report.quality = measure_quality(report.table, settings.quality, run);
     report.thresholds = check_thresholds(*report.quality, settings.thresholds, settings.said);
@@ -94,9 +95,16 @@ Action declare_validate(CLI::App& app) {
       add_folder_option(app, "--report", arguments->report,
                         "folder for a page with all figures and pictures, DIR/index.html")
           ->group("What to write");
-  app.add_flag("--no-quality", arguments->no_quality,
-               "check the invariants alone, which takes seconds; not with --report")
+  CLI::Option* const no_quality =
+      app.add_flag("--no-quality", arguments->no_quality,
+                   "check the invariants alone, which takes seconds; not with --report")
+          ->excludes(page)
+          ->group("What to demand");
+  app.add_flag("--no-invariants", arguments->no_invariants,
+               "measure how good the table is alone: of 64 nodes an axis, invariants take an hour; "
+               "not with --report")
       ->excludes(page)
+      ->excludes(no_quality)
       ->group("What to demand");
   add_threads_option(app, arguments->threads);
   return [arguments](Files& files) { validate(*arguments, files); };

@@ -107,8 +107,9 @@ Json invariant_json(const Validation& report, const InvariantResult& result,
 std::string report_text(const Validation& report) {
   const EntryCommands commands(report.file, report.table);
   std::string text = table_text(report);
-  text +=
-      fmt::format("{:<20} {:>12}  {:<16} {:<10} {}\n", "check", "worst", "allowed", "", "at entry");
+  if (!report.invariants.empty())
+    text += fmt::format("{:<20} {:>12}  {:<16} {:<10} {}\n", "check", "worst", "allowed", "",
+                        "at entry");
   for (const InvariantResult& result : report.invariants)
     text += row_text(report.table.grid, result);
   for (const InvariantResult& result : report.invariants)

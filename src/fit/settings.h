@@ -50,9 +50,8 @@ constexpr EnumNames<StartKind, 4> enum_names(StartKind) {
 
 // Quantile Gauss-Newton, from a coarse sample set to a fine one.
 struct GaussNewtonSettings {
-  // By arcs, lobes are fitted along `directions` with as many thresholds each, counted on
-  // `target_samples`; coarsely with three eighths of them. Sharp and thin lobes, and with several
-  // starts all, are fitted on samples.
+  // By arcs (fit/arc_fit.h), numbers of samples are of the lobe alone. Sharp and thin lobes, and
+  // with several starts all, are fitted on samples.
   LossKind loss = LossKind::arcs;
   int coarse_samples = 256;    // cosine samples of the coarse phase, [64, 65536]
   int coarse_directions = 16;  // projection directions of the coarse phase, [4, 4096]

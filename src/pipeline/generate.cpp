@@ -108,7 +108,8 @@ std::vector<bool> values_behind(const std::vector<bool>& needed, const RefineCon
 // The table and what its files are made in, one after the other; or what its values are made from.
 std::size_t memory_between_fits(const Config& config) {
   constexpr std::size_t of_entry = 12 * sizeof(float) + 4, of_files = 60;
-  return config.grid.size() * of_entry +
+  constexpr std::size_t of_program = std::size_t{30} << 20;
+  return of_program + config.grid.size() * of_entry +
          std::max(config.grid.size() * of_files, between_fits_memory_bytes(config.grid));
 }
 

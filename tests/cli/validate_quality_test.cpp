@@ -113,7 +113,8 @@ TEST_F(ValidateQuality, RefusesBadInputInOneLine) {
                  {"quality.query_directions", "[4, 4096]"});
   expect_refused({"validate", table(), "--set", "quality.horizon=cut"}, 2,
                  {"quality.horizon", "cut", "clipped", "scaled"});
-  expect_refused({"validate", table(), "--no-quality", "--report", "x"}, 2, {"--no-quality"});
+  for (const char* option : {"--no-quality", "--no-invariants"})
+    expect_refused({"validate", table(), option, "--report", "x"}, 2, {option});
 }
 
 }  // namespace

@@ -74,6 +74,26 @@ TEST(Quality, SameBitsWithAnyNumberOfThreads) {
   EXPECT_EQ(one.nodes.count, 30u);
 }
 
+// The small table's nodes are such fits, aligned and rounded; those that symmetry copies are those
+// of a turned lobe, whose samples are others.
+TEST(Quality, NodesAgainstFitsOfTheirOwn) {
+  QualitySettings settings = quick_settings();
+  settings.fitted_nodes = 20;
+  const QualityReport same = measure_quality(small_table(), settings, quick_floors(), {2});
+  EXPECT_EQ(same.node_fits.count, 20u);
+  EXPECT_NEAR(same.node_fits.p50, 1, 1e-3);
+  EXPECT_NEAR(same.node_fits.mean, 1, 0.02);
+  Table widened = small_table();
+  for (std::size_t flat = 0; flat < widened.grid.size(); ++flat) {
+    Eigen::Matrix3d stored = widened.stored_at(flat);
+    stored.col(0) *= 1.5;
+    widened.set_stored(flat, stored);
+  }
+  const QualityReport worse = measure_quality(widened, settings, quick_floors(), {2});
+  EXPECT_GT(worse.node_fits.mean, 1.5);
+  EXPECT_EQ(quick_report(small_table()).node_fits.count, 0u);
+}
+
 TEST(Quality, FloorsCanBeShared) {
   const QualityReport own = measure_quality(small_table(), quick_settings(), {2});
   const QualityReport shared = quick_report(small_table());

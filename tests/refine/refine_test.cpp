@@ -392,7 +392,7 @@ RefineSettings quick_settings() {
   settings.steps = 3;
   settings.queries_per_cell = 30;
   settings.held_out_queries = 150;
-  settings.sampling = {256, 8, 512};
+  settings.sampling = {LossKind::arcs, 8, 8, 256, 512};
   settings.range = {0.4, 1, 0, 1, 0, 1};
   return settings;
 }
