@@ -92,8 +92,8 @@ std::string refine_text(const GenerateReport& made) {
         "held-out queries\n",
         report.steps, report.queries, report.loss_before);
   return fmt::format(
-      "refined  {} steps over {} queries: mean relative loss of held-out queries {:.4f}, was "
-      "{:.4f}\n",
+      "refined  {} steps over {} queries: mean relative loss of held-out queries {:.4f}, at its "
+      "start {:.4f}\n",
       report.steps, report.queries, report.loss_after, report.loss_before);
 }
 

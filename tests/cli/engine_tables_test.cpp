@@ -66,7 +66,7 @@ TEST(EngineTables, RefinementServesTheInterpolatedInverse) {
   const std::size_t at = made.out.find(words);
   ASSERT_NE(at, std::string::npos) << made.out;
   double after = 0, before = 0;
-  ASSERT_EQ(std::sscanf(made.out.c_str() + at + words.size(), "%lf, was %lf", &after, &before), 2);
+  ASSERT_EQ(std::sscanf(made.out.c_str() + at + words.size(), "%lf, at its start %lf", &after, &before), 2);
   EXPECT_LT(after, 0.047);
   EXPECT_LT(after, 0.8 * before);
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
