@@ -67,11 +67,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Doubles = hn::CappedTag<double, arc_lanes>;
 using V = hn::Vec<Doubles>;
 
-template <typename D>
-auto sum_of(D d, hn::Vec<D> value) {
-  return hn::GetLane(hn::SumOfLanes(d, value));
-}
-
 // A symmetric matrix of each lane.
 struct Symmetric {
   V xx, xy, xz, yy, yz, zz;
@@ -339,72 +334,106 @@ void WholeCones(const double* w, const Cones& cones, const ConeResults& results)
   }
 }
 
+// Sums over lanes of `width` in one order whatever vectors there are, so that every vector unit
+// finds the same bits: part by part of such a row, then lane by lane.
+template <typename T, std::size_t width>
+T sum_of_row(const T (&row)[width]) {
+  T sum = 0;
+  for (const T value : row)
+    sum += value;
+  return sum;
+}
+
 void ArcSums(const double* jacobian, std::size_t stride, std::size_t count, const double* first,
              const double* second, double* gradient, double* curvature) {
   const Doubles d;
   for (std::size_t a = 0; a < 9; ++a) {
     const double* of_a = jacobian + a * stride;
-    V sum = hn::Zero(d), products[9];
-    for (std::size_t b = a; b < 9; ++b)
-      products[b] = hn::Zero(d);
-    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-      const V value = hn::Load(d, of_a + i);
-      sum = hn::MulAdd(value, hn::Load(d, first + i), sum);
-      const V weighted = hn::Mul(value, hn::Load(d, second + i));
+    HWY_ALIGN double sums[arc_lanes], products[9][arc_lanes];
+    for (std::size_t part = 0; part < arc_lanes; part += hn::Lanes(d)) {
+      V sum = hn::Zero(d), product[9];
       for (std::size_t b = a; b < 9; ++b)
-        products[b] = hn::MulAdd(weighted, hn::Load(d, jacobian + b * stride + i), products[b]);
+        product[b] = hn::Zero(d);
+      for (std::size_t i = part; i < count; i += arc_lanes) {
+        const V value = hn::Load(d, of_a + i);
+        sum = hn::MulAdd(value, hn::Load(d, first + i), sum);
+        const V weighted = hn::Mul(value, hn::Load(d, second + i));
+        for (std::size_t b = a; b < 9; ++b)
+          product[b] = hn::MulAdd(weighted, hn::Load(d, jacobian + b * stride + i), product[b]);
+      }
+      hn::Store(sum, d, sums + part);
+      for (std::size_t b = a; b < 9; ++b)
+        hn::Store(product[b], d, products[b] + part);
     }
-    gradient[a] = sum_of(d, sum);
+    gradient[a] = sum_of_row(sums);
     for (std::size_t b = a; b < 9; ++b)
-      curvature[9 * a + b] = curvature[9 * b + a] = sum_of(d, products[b]);
+      curvature[9 * a + b] = curvature[9 * b + a] = sum_of_row(products[b]);
   }
 }
 
+constexpr std::size_t sample_lanes = 16;
+
 ArcCounts CountAbove(const float* direction, const Points& g, const float* weight, const double* z,
                      const double* ramp, std::size_t thresholds, float* xi, double* above) {
-  const hn::CappedTag<float, 16> d;
+  const hn::CappedTag<float, sample_lanes> d;
   using F = hn::Vec<decltype(d)>;
   const std::size_t lanes = hn::Lanes(d);
   const F dx = hn::Set(d, direction[0]), dy = hn::Set(d, direction[1]),
           dz = hn::Set(d, direction[2]);
-  F total = hn::Zero(d), first = hn::Zero(d);
-  for (std::size_t i = 0; i < g.count; i += lanes) {
-    const F value =
-        hn::MulAdd(dx, hn::Load(d, g.x + i),
-                   hn::MulAdd(dy, hn::Load(d, g.y + i), hn::Mul(dz, hn::Load(d, g.z + i))));
-    const F w = hn::Load(d, weight + i);
-    hn::Store(value, d, xi + i);
-    total = hn::Add(total, w);
-    first = hn::MulAdd(w, value, first);
+  HWY_ALIGN float totals[sample_lanes], firsts[sample_lanes], deviations[sample_lanes];
+  for (std::size_t part = 0; part < sample_lanes; part += lanes) {
+    F total = hn::Zero(d), first = hn::Zero(d);
+    for (std::size_t i = part; i < g.count; i += sample_lanes) {
+      const F value =
+          hn::MulAdd(dx, hn::Load(d, g.x + i),
+                     hn::MulAdd(dy, hn::Load(d, g.y + i), hn::Mul(dz, hn::Load(d, g.z + i))));
+      const F w = hn::Load(d, weight + i);
+      hn::Store(value, d, xi + i);
+      total = hn::Add(total, w);
+      first = hn::MulAdd(w, value, first);
+    }
+    hn::Store(total, d, totals + part);
+    hn::Store(first, d, firsts + part);
   }
-  const double whole = static_cast<double>(sum_of(d, total));
-  const double centre = static_cast<double>(sum_of(d, first)) / whole;
+  const double whole = static_cast<double>(sum_of_row(totals));
+  const double centre = static_cast<double>(sum_of_row(firsts)) / whole;
   const F middle = hn::Set(d, static_cast<float>(centre));
-  F deviation = hn::Zero(d);
-  for (std::size_t i = 0; i < g.count; i += lanes)
-    deviation = hn::MulAdd(hn::Load(d, weight + i), hn::Abs(hn::Sub(hn::Load(d, xi + i), middle)),
-                           deviation);
-  const double scale = std::max(static_cast<double>(sum_of(d, deviation)) / whole, 1e-30);
+  for (std::size_t part = 0; part < sample_lanes; part += lanes) {
+    F deviation = hn::Zero(d);
+    for (std::size_t i = part; i < g.count; i += sample_lanes)
+      deviation = hn::MulAdd(hn::Load(d, weight + i), hn::Abs(hn::Sub(hn::Load(d, xi + i), middle)),
+                             deviation);
+    hn::Store(deviation, d, deviations + part);
+  }
+  const double scale = std::max(static_cast<double>(sum_of_row(deviations)) / whole, 1e-30);
   const F one = hn::Set(d, 1.0f);
   constexpr std::size_t at_once = 4;
   for (std::size_t j = 0; j < thresholds; j += at_once) {
     // A sample's share above the ramp about a threshold is slope x + offset, from 0 to 1.
-    F slope[at_once], offset[at_once], sum[at_once];
+    F slope[at_once], offset[at_once];
     for (std::size_t k = 0; k < at_once; ++k) {
       const std::size_t at = std::min(j + k, thresholds - 1);
       const double steepness = 1 / (scale * ramp[at]);
       slope[k] = hn::Set(d, static_cast<float>(steepness));
       offset[k] = hn::Set(d, static_cast<float>(0.5 - (centre + scale * z[at]) * steepness));
-      sum[k] = hn::Zero(d);
     }
-    for (std::size_t i = 0; i < g.count; i += lanes) {
-      const F value = hn::Load(d, xi + i), w = hn::Load(d, weight + i);
+    HWY_ALIGN float sums[at_once][sample_lanes];
+    for (std::size_t part = 0; part < sample_lanes; part += lanes) {
+      F sum[at_once];
       for (std::size_t k = 0; k < at_once; ++k)
-        sum[k] = hn::MulAdd(
-            w, hn::Min(hn::Max(hn::MulAdd(slope[k], value, offset[k]), hn::Zero(d)), one), sum[k]);
+        sum[k] = hn::Zero(d);
+      for (std::size_t i = part; i < g.count; i += sample_lanes) {
+        const F value = hn::Load(d, xi + i), w = hn::Load(d, weight + i);
+        for (std::size_t k = 0; k < at_once; ++k)
+          sum[k] = hn::MulAdd(
+              w, hn::Min(hn::Max(hn::MulAdd(slope[k], value, offset[k]), hn::Zero(d)), one),
+              sum[k]);
+      }
+      for (std::size_t k = 0; k < at_once; ++k)
+        hn::Store(sum[k], d, sums[k] + part);
     }
     for (std::size_t k = 0; k < at_once && j + k < thresholds; ++k)
-      above[j + k] = static_cast<double>(sum_of(d, sum[k])) / whole;
+      above[j + k] = static_cast<double>(sum_of_row(sums[k])) / whole;
   }
   return {centre, scale};
 }

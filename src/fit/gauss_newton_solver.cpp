@@ -73,7 +73,7 @@ GaussNewtonSolver::GaussNewtonSolver(const GaussNewtonSettings& settings, Target
       usual_(make_ladder(settings, creases, horizon)),
       graded_(make_graded_ladder(settings, creases, horizon)) {
   // Settings that ask for more than one start are tried by samples.
-  if (settings.loss == LossKind::arcs && target == TargetKind::weighted && creases.empty() &&
+  if (settings.loss == LossKind::arcs && target == TargetKind::weighted &&
       horizon == HorizonMode::clipped && settings.starts == 1)
     arcs_.emplace(settings);
 }

@@ -125,10 +125,10 @@ void TargetQuantiles::build(const TargetSamples& samples,
   reserve(directions.size(), bin_count, spacing);
   if (pairs_.size() < 2 * samples.size)
     pairs_.resize(2 * samples.size);
-  if (xi.size() < samples.size) {
+  if (xi.size() < samples.size)
     xi.resize(samples.size);
+  if (bins.size() < samples.size)
     bins.resize(samples.size);
-  }
   const Eigen::Vector3d mean = target_moments(samples).mean;
   heavy_tails_ = samples.heavy_tails;
   spread_ = 0;
@@ -406,10 +406,10 @@ void ModelWorkspace::reserve(std::size_t samples, std::size_t bin_count, std::si
       array->resize(samples);
   if (rows.size() < samples * width)
     rows.resize(samples * width);
-  if (xi.size() < directions_at_once * samples) {
+  if (xi.size() < directions_at_once * samples)
     xi.resize(directions_at_once * samples);
+  if (bins.size() < directions_at_once * samples)
     bins.resize(directions_at_once * samples);
-  }
   if (sums.size() < directions_at_once * bin_count * width) {
     sums.resize(directions_at_once * bin_count * width);
     scratch.resize(bin_count * (4 + width));

@@ -14,7 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace ltc::kernels::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, 16>;
+constexpr std::size_t most_lanes = 16;
+using Floats = hn::CappedTag<float, most_lanes>;
 using V = hn::Vec<Floats>;
 
 // So many columns of a and b at once keep all sums in registers, and stretches of so many tiles of
@@ -26,39 +27,49 @@ constexpr std::size_t height = 4, width = 3, stretch = 256, tiles = 4;
 void multiply_tile(const Columns& a, std::size_t i, const Columns& b, std::size_t j,
                    std::size_t begin, std::size_t end, float (&products)[width][height]) {
   const Floats d;
-  const std::size_t lanes = hn::Lanes(d), whole = begin + (end - begin) / lanes * lanes;
+  const std::size_t whole = begin + (end - begin) / most_lanes * most_lanes;
   const float* of_a[height];
   const float* of_b[width];
   for (std::size_t k = 0; k < height; ++k)
     of_a[k] = a.data + std::min(i + k, a.count - 1) * a.rows;
   for (std::size_t k = 0; k < width; ++k)
     of_b[k] = b.data + std::min(j + k, b.count - 1) * b.rows;
-  V s00 = hn::Zero(d), s01 = s00, s02 = s00, s10 = s00, s11 = s00, s12 = s00;
-  V s20 = s00, s21 = s00, s22 = s00, s30 = s00, s31 = s00, s32 = s00;
-  for (std::size_t q = begin; q < whole; q += lanes) {
-    const V b0 = hn::LoadU(d, of_b[0] + q), b1 = hn::LoadU(d, of_b[1] + q),
-            b2 = hn::LoadU(d, of_b[2] + q);
-    V value = hn::LoadU(d, of_a[0] + q);
-    s00 = hn::MulAdd(value, b0, s00);
-    s01 = hn::MulAdd(value, b1, s01);
-    s02 = hn::MulAdd(value, b2, s02);
-    value = hn::LoadU(d, of_a[1] + q);
-    s10 = hn::MulAdd(value, b0, s10);
-    s11 = hn::MulAdd(value, b1, s11);
-    s12 = hn::MulAdd(value, b2, s12);
-    value = hn::LoadU(d, of_a[2] + q);
-    s20 = hn::MulAdd(value, b0, s20);
-    s21 = hn::MulAdd(value, b1, s21);
-    s22 = hn::MulAdd(value, b2, s22);
-    value = hn::LoadU(d, of_a[3] + q);
-    s30 = hn::MulAdd(value, b0, s30);
-    s31 = hn::MulAdd(value, b1, s31);
-    s32 = hn::MulAdd(value, b2, s32);
+  // Lane by lane of the widest vectors, so that every vector unit finds the same bits.
+  HWY_ALIGN float rows[width][height][most_lanes];
+  for (std::size_t part = 0; part < most_lanes; part += hn::Lanes(d)) {
+    V s00 = hn::Zero(d), s01 = s00, s02 = s00, s10 = s00, s11 = s00, s12 = s00;
+    V s20 = s00, s21 = s00, s22 = s00, s30 = s00, s31 = s00, s32 = s00;
+    for (std::size_t q = begin + part; q < whole; q += most_lanes) {
+      const V b0 = hn::LoadU(d, of_b[0] + q), b1 = hn::LoadU(d, of_b[1] + q),
+              b2 = hn::LoadU(d, of_b[2] + q);
+      V value = hn::LoadU(d, of_a[0] + q);
+      s00 = hn::MulAdd(value, b0, s00);
+      s01 = hn::MulAdd(value, b1, s01);
+      s02 = hn::MulAdd(value, b2, s02);
+      value = hn::LoadU(d, of_a[1] + q);
+      s10 = hn::MulAdd(value, b0, s10);
+      s11 = hn::MulAdd(value, b1, s11);
+      s12 = hn::MulAdd(value, b2, s12);
+      value = hn::LoadU(d, of_a[2] + q);
+      s20 = hn::MulAdd(value, b0, s20);
+      s21 = hn::MulAdd(value, b1, s21);
+      s22 = hn::MulAdd(value, b2, s22);
+      value = hn::LoadU(d, of_a[3] + q);
+      s30 = hn::MulAdd(value, b0, s30);
+      s31 = hn::MulAdd(value, b1, s31);
+      s32 = hn::MulAdd(value, b2, s32);
+    }
+    const V sums[width][height] = {
+        {s00, s10, s20, s30}, {s01, s11, s21, s31}, {s02, s12, s22, s32}};
+    for (std::size_t column = 0; column < width; ++column)
+      for (std::size_t row = 0; row < height; ++row)
+        hn::Store(sums[column][row], d, rows[column][row] + part);
   }
-  const V sums[width][height] = {{s00, s10, s20, s30}, {s01, s11, s21, s31}, {s02, s12, s22, s32}};
   for (std::size_t column = 0; column < width; ++column)
     for (std::size_t row = 0; row < height; ++row) {
-      float sum = hn::GetLane(hn::SumOfLanes(d, sums[column][row]));
+      float sum = 0;
+      for (const float lane : rows[column][row])
+        sum += lane;
       for (std::size_t q = whole; q < end; ++q)
         sum += of_a[row][q] * of_b[column][q];
       products[column][row] = sum;

@@ -260,7 +260,8 @@ TEST(ArcModel, FarThresholdsSeeALobeThatIsMuchTooWide) {
   Eigen::Matrix3d wide = near.start;
   wide.leftCols<2>() *= 300;
   const double expected = judged(lobe, near.frame, wide);
-  EXPECT_NEAR(far.loss(wide) / expected, 1, 0.03);
+  // One threshold an octave.
+  EXPECT_NEAR(far.loss(wide) / expected, 1, 0.1);
   EXPECT_LT(near.loss(wide) / expected, 0.5);
 }
 
@@ -276,7 +277,7 @@ TEST(ArcModel, GradientIsThatOfItsLoss) {
     const Eigen::Matrix3d step = 1e-3 * unflattened(value.gradient) / value.gradient.norm();
     const double difference = (model.loss(model.start + step) - model.loss(model.start - step)) / 2;
     // Residuals near zero count less in the gradient.
-    EXPECT_NEAR(difference / flattened(step).dot(value.gradient), 1, 0.02) << test::describe(lobe);
+    EXPECT_NEAR(difference / flattened(step).dot(value.gradient), 1, 0.03) << test::describe(lobe);
     // The scale of P moves nothing.
     EXPECT_LT(std::abs(flattened(model.start).dot(value.gradient)),
               1e-4 * value.gradient.norm() * model.start.norm());

@@ -56,7 +56,9 @@ inline const Arguments stochastic =
                              "--set",     "fit.sgd.steps=75",
                              "--threads", "1"};
 // Sixteen entries in no time, and sixteen that would take hours.
-inline const Arguments tiny = grid_of("2") + Arguments{"--set", "fit.gauss_newton.steps=2"};
+// From fits: those of this grid are few, and there is something to resume.
+inline const Arguments tiny =
+    grid_of("2") + Arguments{"--set", "fit.gauss_newton.steps=2", "--set", "refine.start=fits"};
 inline const Arguments endless =
     grid_of("2") + Arguments{"--config",  LTCFIT_SOURCE_DIR "/config/paper.toml",
                              "--set",     "fit.sgd.steps=10000000",
