@@ -87,7 +87,8 @@ TEST(RefineProgram, FilesSayWhetherTheTableIsRefined) {
   EXPECT_EQ(refined({"--set", "refine.steps=0"}, "entries "), false);
   // So short a step betters nothing.
   EXPECT_EQ(refined({"--set", "refine.steps=1", "--set", "refine.damping=1e6", "--set",
-                     "refine.queries_per_cell=1", "--set", "refine.start=fits"},
+                     "refine.queries_per_cell=1", "--set", "refine.start=fits", "--set",
+                     "refine.loss=samples"},
                     "refined  not: "),
             false);
   EXPECT_EQ(refined({"--set", "refine.steps=2"}, "refined  2 steps"), true);
