@@ -88,6 +88,9 @@ TEST(Invariants, FoldsAreJudgedToo) {
   config.fit.lobe = LobeKind::folded;
   config.field.creases = config.fit.creases();
   config.field.queries = 2000;
+  // So few queries leave lobes at the horizon open: from this start they jump no more than GGX
+  // does.
+  config.fit.gauss_newton.loss = config.refine.sampling.loss = LossKind::samples;
   const Table table = generate_table(config, {1});
   std::vector<InvariantResult> results = check(table);
   EXPECT_EQ(failed(results), std::set<std::string>{});
