@@ -250,13 +250,12 @@ void CutCones(const double* w, const Cones& cones, const ArcNodes& nodes,
     const V qx = frame.qx, qy = frame.qy;
     const V xx = hn::Mul(qx, qx), xy = hn::Mul(qx, qy), yy = hn::Mul(qy, qy);
     const V cross = hn::Mul(two, hn::Mul(xy, sum.xy));
-    const Symmetric slope{
-        hn::MulAdd(xx, sum.xx, hn::NegMulAdd(hn::Set(d, 1.0), cross, hn::Mul(yy, sum.yy))),
-        hn::MulAdd(xy, hn::Sub(sum.xx, sum.yy), hn::Mul(hn::Sub(xx, yy), sum.xy)),
-        hn::MulSub(qx, sum.xz, hn::Mul(qy, sum.yz)),
-        hn::MulAdd(yy, sum.xx, hn::MulAdd(xx, sum.yy, cross)),
-        hn::MulAdd(qy, sum.xz, hn::Mul(qx, sum.yz)),
-        sum.zz};
+    const Symmetric slope{hn::MulAdd(xx, sum.xx, hn::Sub(hn::Mul(yy, sum.yy), cross)),
+                          hn::MulAdd(xy, hn::Sub(sum.xx, sum.yy), hn::Mul(hn::Sub(xx, yy), sum.xy)),
+                          hn::MulSub(qx, sum.xz, hn::Mul(qy, sum.yz)),
+                          hn::MulAdd(yy, sum.xx, hn::MulAdd(xx, sum.yy, cross)),
+                          hn::MulAdd(qy, sum.xz, hn::Mul(qx, sum.yz)),
+                          sum.zz};
     store_jacobian(w, cones, i, slope, results);
   }
 }
@@ -452,10 +451,6 @@ HWY_EXPORT(CountAbove);
 
 namespace {
 
-std::size_t padded(std::size_t count) {
-  return (count + arc_lanes - 1) / arc_lanes * arc_lanes;
-}
-
 void grow(AlignedVector<double>& array, std::size_t size) {
   if (array.size() < size)
     array.resize(size);
@@ -520,7 +515,7 @@ void ArcDistributions::evaluate(const double* w, const ArcPairs& pairs, const Ar
   const auto take = [&](double* cones, std::size_t count, auto&& evaluate_cones) {
     if (count == 0)
       return;
-    const std::size_t begin = moving.size(), size = padded(count);
+    const std::size_t begin = moving.size(), size = padded_to_lanes(count);
     for (std::size_t number = 0; number < kConeNumbers; ++number)
       std::fill_n(cones + number * stride + count, size - count,
                   cones[number * stride + count - 1]);

@@ -45,6 +45,10 @@ namespace ltc::kernels {
 inline constexpr std::size_t arc_lanes = 8;
 inline constexpr double least_arc_threshold = 1e-6;
 
+constexpr std::size_t padded_to_lanes(std::size_t count) {
+  return (count + arc_lanes - 1) / arc_lanes * arc_lanes;
+}
+
 // Gauss-Legendre nodes in psi: sin psi, cos psi, and the node's weight times cos psi / (2 pi).
 struct ArcNodes {
   explicit ArcNodes(std::size_t count);

@@ -22,15 +22,11 @@ constexpr double soft_share = 0.1;
 
 constexpr int far_octaves = 10;
 
-std::size_t padded(std::size_t count) {
-  return (count + kernels::arc_lanes - 1) / kernels::arc_lanes * kernels::arc_lanes;
-}
-
 // The pairs (d, t); those beyond the last one have no length.
 kernels::ArcPairs make_pairs(const Eigen::Matrix3d& turn, const ArcView& view,
                              ArcWorkspace& workspace) {
   const ArcRule& rule = view.rule;
-  const std::size_t size = padded(view.directions.size() * rule.thresholds());
+  const std::size_t size = kernels::padded_to_lanes(view.directions.size() * rule.thresholds());
   for (AlignedVector<double>* array :
        {&workspace.dx, &workspace.dy, &workspace.dz, &workspace.t, &workspace.length})
     array->resize(size);

@@ -144,6 +144,8 @@ class GaussNewtonSolver::Fit {
   };
 
   FitResult find_ltc() {
+    if (const std::optional<FitResult> found = fit_by_arcs())
+      return *found;
     see_target(Look::light);
     if ((request_.starts.empty() || !request_.incumbent) && first_order_is_exact(frame_)) {
       FitResult result = analytic_result();
@@ -151,6 +153,17 @@ class GaussNewtonSolver::Fit {
       return result;
     }
     return request_.incumbent ? improve(*request_.incumbent) : fit_anew();
+  }
+
+  // Before any target is seen. None where a lobe is not for arcs, or they find nothing.
+  std::optional<FitResult> fit_by_arcs() {
+    if (!solver_.arcs_ || !request_.starts.empty() || request_.incumbent ||
+        !ArcFit::takes(frame_) || first_order_is_exact(frame_))
+      return std::nullopt;
+    const FitResult found = solver_.arcs_->fit(request_, frame_, workspace_, trace_);
+    if (!usable(found.matrix) || !std::isfinite(found.loss))
+      return std::nullopt;
+    return found;
   }
 
   bool can_fold(const FitResult& at_hand) const {
@@ -185,13 +198,6 @@ class GaussNewtonSolver::Fit {
   }
 
   FitResult fit_anew() {
-    if (request_.starts.empty() && solver_.arcs_ && ArcFit::takes(frame_)) {
-      const FitResult found = solver_.arcs_->fit(request_, frame_, workspace_, trace_);
-      seen_.reset();
-      if (usable(found.matrix) && std::isfinite(found.loss))
-        return found;
-      see_target(Look::light);
-    }
     if (request_.starts.empty() && &ladder_ == &solver_.usual_) {
       const Descent best = best_of(coarse_descents(own_starts(), Kind::own_start));
       return std::isfinite(best.loss) ? climbed(best) : no_result(result_.steps);
