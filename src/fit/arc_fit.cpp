@@ -10,8 +10,10 @@
 namespace ltc {
 namespace {
 
-// The smaller over the larger roughness of the thinnest lobes that are fitted by arcs.
-constexpr double least_ratio = 0.1;
+// The larger roughness of the sharpest lobes that are fitted by arcs, and the smaller over the
+// larger one of the thinnest. Sharper and thinner ones than a coarse grid's first nodes are most of
+// a fine grid's fits, and a fit on samples takes six times as long.
+constexpr double least_alpha = 0.05, least_ratio = 0.05;
 
 constexpr std::size_t coarse_samples = 1024, arc_nodes = 8;
 
@@ -59,7 +61,8 @@ ArcFit::ArcFit(const GaussNewtonSettings& settings)
 
 bool ArcFit::takes(const LobeFrame& frame) {
   const double x = frame.lobe.alpha_x, y = frame.lobe.alpha_y;
-  return !is_sharp(frame) && !is_extreme(frame) && std::min(x, y) >= least_ratio * std::max(x, y);
+  return !is_extreme(frame) && std::max(x, y) >= least_alpha &&
+         std::min(x, y) >= least_ratio * std::max(x, y);
 }
 
 Descent ArcFit::descend(const Level& level, const Request& request, const Eigen::Matrix3d& start,
