@@ -2,13 +2,13 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "refine/field_albedo.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "brdf/albedo.h"
 #include "core/parallel.h"
 #include "core/spread.h"
+#include "refine/field_solve.h"
 #include "refine/field_terms.h"
 #include "table/precision.h"
 
@@ -50,10 +50,7 @@ struct Equations {
 };
 Equations equations_of(const Eigen::MatrixXd& rows, const Wanted& wanted) {
   const Eigen::MatrixXd weighted = wanted.weight.cwiseSqrt().asDiagonal() * rows;
-  Equations result{Eigen::MatrixXd::Zero(rows.cols(), rows.cols()),
-                   rows.transpose() * wanted.weight.cwiseProduct(wanted.value)};
-  result.curvature.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
-  result.curvature.triangularView<Eigen::StrictlyUpper>() = result.curvature.transpose();
+  Equations result{squared(weighted), rows.transpose() * wanted.weight.cwiseProduct(wanted.value)};
   result.curvature.diagonal().array() +=
       damping * (result.curvature.diagonal().array() + result.curvature.diagonal().mean());
   return result;
@@ -76,7 +73,7 @@ void fit_part(const std::vector<FieldVariables>& at, const std::vector<FieldTerm
   for (int round = 0; round < rounds; ++round) {
     run.throw_if_stopped();
     equations = equations_of(rows, weighed);
-    coefficients = equations.curvature.llt().solve(equations.right);
+    coefficients = CholeskyFactor(equations.curvature).solve(equations.right);
     const Eigen::ArrayXd error =
         (rows * coefficients - wanted.value).array().abs() * wanted.weight.array().sqrt();
     weighed.weight.array() *= 1 + (error / (outlier * error.mean())).square().min(3.0);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/aligned.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "refine/field_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
@@ -14,32 +16,35 @@ HWY_BEFORE_NAMESPACE();
 namespace ltc::kernels::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-constexpr std::size_t most_lanes = 16;
-using Floats = hn::CappedTag<float, most_lanes>;
-using V = hn::Vec<Floats>;
+// The lanes of the widest vectors.
+template <typename Number>
+constexpr std::size_t most_lanes = 64 / sizeof(Number);
 
 // So many columns of a and b at once keep all sums in registers, and stretches of so many tiles of
 // them the nearest cache.
-constexpr std::size_t height = 4, width = 3, stretch = 256, tiles = 4;
+constexpr std::size_t height = 4, width = 3, stretch = product_stretch, tiles = 4;
 
 // The products of height columns of a and width of b over a stretch; columns beyond the last one
 // are the last one again.
-void multiply_tile(const Columns& a, std::size_t i, const Columns& b, std::size_t j,
-                   std::size_t begin, std::size_t end, float (&products)[width][height]) {
-  const Floats d;
-  const std::size_t whole = begin + (end - begin) / most_lanes * most_lanes;
-  const float* of_a[height];
-  const float* of_b[width];
+template <typename Number>
+void multiply_tile(const ColumnsOf<Number>& a, std::size_t i, const ColumnsOf<Number>& b,
+                   std::size_t j, Number (&products)[width][height]) {
+  constexpr std::size_t most = most_lanes<Number>;
+  const hn::CappedTag<Number, most> d;
+  using V = hn::Vec<decltype(d)>;
+  const std::size_t whole = a.rows / most * most;
+  const Number* of_a[height];
+  const Number* of_b[width];
   for (std::size_t k = 0; k < height; ++k)
-    of_a[k] = a.data + std::min(i + k, a.count - 1) * a.rows;
+    of_a[k] = a.data + std::min(i + k, a.count - 1) * a.pitch;
   for (std::size_t k = 0; k < width; ++k)
-    of_b[k] = b.data + std::min(j + k, b.count - 1) * b.rows;
+    of_b[k] = b.data + std::min(j + k, b.count - 1) * b.pitch;
   // Lane by lane of the widest vectors, so that every vector unit finds the same bits.
-  HWY_ALIGN float rows[width][height][most_lanes];
-  for (std::size_t part = 0; part < most_lanes; part += hn::Lanes(d)) {
+  HWY_ALIGN Number rows[width][height][most];
+  for (std::size_t part = 0; part < most; part += hn::Lanes(d)) {
     V s00 = hn::Zero(d), s01 = s00, s02 = s00, s10 = s00, s11 = s00, s12 = s00;
     V s20 = s00, s21 = s00, s22 = s00, s30 = s00, s31 = s00, s32 = s00;
-    for (std::size_t q = begin + part; q < whole; q += most_lanes) {
+    for (std::size_t q = part; q < whole; q += most) {
       const V b0 = hn::LoadU(d, of_b[0] + q), b1 = hn::LoadU(d, of_b[1] + q),
               b2 = hn::LoadU(d, of_b[2] + q);
       V value = hn::LoadU(d, of_a[0] + q);
@@ -67,34 +72,60 @@ void multiply_tile(const Columns& a, std::size_t i, const Columns& b, std::size_
   }
   for (std::size_t column = 0; column < width; ++column)
     for (std::size_t row = 0; row < height; ++row) {
-      float sum = 0;
-      for (const float lane : rows[column][row])
+      Number sum = 0;
+      for (const Number lane : rows[column][row])
         sum += lane;
-      for (std::size_t q = whole; q < end; ++q)
+      for (std::size_t q = whole; q < a.rows; ++q)
         sum += of_a[row][q] * of_b[column][q];
       products[column][row] = sum;
     }
 }
 
-void MultiplyTransposed(const Columns& a, const Columns& b, double* result, std::size_t stride) {
+// Adds the products over a stretch.
+template <typename Number>
+void add_products(const ColumnsOf<Number>& a, const ColumnsOf<Number>& b, double* result,
+                  std::size_t stride) {
+  constexpr std::size_t block_height = tiles * height, block_width = tiles * width;
+  for (std::size_t left = 0; left < b.count; left += block_width)
+    for (std::size_t top = 0; top < a.count; top += block_height)
+      for (std::size_t j = left; j < std::min(left + block_width, b.count); j += width)
+        for (std::size_t i = top; i < std::min(top + block_height, a.count); i += height) {
+          Number products[width][height];
+          multiply_tile(a, i, b, j, products);
+          for (std::size_t column = 0; column < width && j + column < b.count; ++column)
+            for (std::size_t row = 0; row < height && i + row < a.count; ++row)
+              result[(j + column) * stride + i + row] += static_cast<double>(products[column][row]);
+        }
+}
+
+// `weights` may be null; `weighted`, of a stretch for each column of b, is where b times them
+// stands then: nearer than all of it would.
+template <typename Number>
+void multiply(const ColumnsOf<Number>& a, const Number* weights, const ColumnsOf<Number>& b,
+              Number* weighted, double* result, std::size_t stride) {
   for (std::size_t j = 0; j < b.count; ++j)
     std::fill_n(result + j * stride, a.count, 0.0);
   for (std::size_t begin = 0; begin < a.rows; begin += stretch) {
-    const std::size_t end = std::min(begin + stretch, a.rows);
-    const auto add_tile = [&](std::size_t i, std::size_t j) {
-      float products[width][height];
-      multiply_tile(a, i, b, j, begin, end, products);
-      for (std::size_t column = 0; column < width && j + column < b.count; ++column)
-        for (std::size_t row = 0; row < height && i + row < a.count; ++row)
-          result[(j + column) * stride + i + row] += static_cast<double>(products[column][row]);
-    };
-    constexpr std::size_t block_height = tiles * height, block_width = tiles * width;
-    for (std::size_t left = 0; left < b.count; left += block_width)
-      for (std::size_t top = 0; top < a.count; top += block_height)
-        for (std::size_t j = left; j < std::min(left + block_width, b.count); j += width)
-          for (std::size_t i = top; i < std::min(top + block_height, a.count); i += height)
-            add_tile(i, j);
+    const std::size_t rows = std::min(stretch, a.rows - begin);
+    const ColumnsOf<Number> of_a{a.data + begin, rows, a.count, a.pitch};
+    ColumnsOf<Number> of_b{b.data + begin, rows, b.count, b.pitch};
+    if (weights) {
+      for (std::size_t j = 0; j < b.count; ++j)
+        for (std::size_t q = 0; q < rows; ++q)
+          weighted[j * stretch + q] = weights[begin + q] * of_b.data[j * b.pitch + q];
+      of_b = {weighted, rows, b.count, stretch};
+    }
+    add_products(of_a, of_b, result, stride);
   }
+}
+
+void MultiplyFloats(const Columns& a, const float* weights, const Columns& b, float* weighted,
+                    double* result, std::size_t stride) {
+  multiply(a, weights, b, weighted, result, stride);
+}
+void MultiplyDoubles(const ColumnsOf<double>& a, const ColumnsOf<double>& b, double* result,
+                     std::size_t stride) {
+  multiply<double>(a, nullptr, b, nullptr, result, stride);
 }
 
 }  // namespace ltc::kernels::HWY_NAMESPACE
@@ -103,10 +134,21 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace ltc::kernels {
 
-HWY_EXPORT(MultiplyTransposed);
+HWY_EXPORT(MultiplyFloats);
+HWY_EXPORT(MultiplyDoubles);
 
 void multiply_transposed(const Columns& a, const Columns& b, double* result, std::size_t stride) {
-  HWY_DYNAMIC_DISPATCH(MultiplyTransposed)(a, b, result, stride);
+  HWY_DYNAMIC_DISPATCH(MultiplyFloats)(a, nullptr, b, nullptr, result, stride);
+}
+void multiply_transposed(const ColumnsOf<double>& a, const ColumnsOf<double>& b, double* result,
+                         std::size_t stride) {
+  HWY_DYNAMIC_DISPATCH(MultiplyDoubles)(a, b, result, stride);
+}
+
+void multiply_weighted(const Columns& a, const float* weights, const Columns& b, double* result,
+                       std::size_t stride) {
+  AlignedFloats weighted(product_stretch * b.count);
+  HWY_DYNAMIC_DISPATCH(MultiplyFloats)(a, weights, b, weighted.data(), result, stride);
 }
 
 }  // namespace ltc::kernels

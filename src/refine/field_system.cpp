@@ -183,20 +183,21 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
     gradients.row(q) = weights[at] * models_[at].gradient.transpose();
   }
   // One block is one thread's: sums have a fixed order.
-  spread_for<Eigen::MatrixXf>(
-      Spreading::moving, blocks.size(), run, [] { return Eigen::MatrixXf(); },
-      [&](std::size_t i, Eigen::MatrixXf& weighted) {
+  struct None {};
+  spread_for<None>(
+      Spreading::moving, blocks.size(), run, [] { return None(); },
+      [&](std::size_t i, None&) {
         const auto [a, b] = blocks[i];
-        weighted.noalias() = curvatures.col(static_cast<Eigen::Index>(i)).asDiagonal() * rows_[b];
         if (rows_[a].cols() == 0 || rows_[b].cols() == 0)
           return;
-        kernels::multiply_transposed(columns_of(rows_[a]), columns_of(weighted),
-                                     &result.curvature(first_[a], first_[b]),
-                                     static_cast<std::size_t>(n));
+        kernels::multiply_weighted(columns_of(rows_[a]),
+                                   curvatures.col(static_cast<Eigen::Index>(i)).data(),
+                                   columns_of(rows_[b]), &result.curvature(first_[a], first_[b]),
+                                   static_cast<std::size_t>(n));
         if (a == b)
           for (Eigen::Index i = 0; i < rows_[a].cols(); ++i)
-            result.gradient[first_[a] + i] = rows_[a].col(i).cast<double>().dot(
-                gradients.col(static_cast<Eigen::Index>(a)));
+            result.gradient[first_[a] + i] =
+                rows_[a].col(i).cast<double>().dot(gradients.col(static_cast<Eigen::Index>(a)));
       },
       [&](std::size_t i, auto&& take) {
         const auto [a, b] = blocks[i];

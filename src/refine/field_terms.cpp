@@ -2,15 +2,20 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "refine/field_terms.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "refine/field_solve.h"
 
 namespace ltc {
 namespace {
 
 // The matrix has little use for more of the angle's.
 constexpr std::size_t most_matrix_angle = 2;
+
+// Of the updates of an inverse.
+constexpr Eigen::Index most_pending = 64;
 
 // The order in phi of the factor that a part has already.
 std::size_t own_order(FieldPart part) {
@@ -60,36 +65,37 @@ std::vector<FieldTerm> matrix_pool_of_size(std::size_t count, bool is_folded) {
 std::vector<bool> terms_to_keep(const Eigen::MatrixXd& curvature, const Eigen::VectorXd& right,
                                 std::size_t count) {
   const Eigen::Index n = right.size();
-  Eigen::MatrixXd inverse = curvature.llt().solve(Eigen::MatrixXd::Identity(n, n));
-  Eigen::VectorXd x = inverse * right;
+  Eigen::MatrixXd inverse = CholeskyFactor(curvature).inverse();
+  Eigen::VectorXd x = inverse * right, diagonal = inverse.diagonal();
   std::vector<bool> kept(static_cast<std::size_t>(n), true);
-  // The rows that are left, compact: what is taken away costs no more.
-  std::vector<Eigen::Index> left(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i)
-    left[static_cast<std::size_t>(i)] = i;
-  Eigen::Index size = n;
-  while (size > static_cast<Eigen::Index>(count)) {
+  // What taking terms away subtracts from the inverse, a vector's product with itself each. Of the
+  // inverse only the diagonal and the columns asked for are brought up to date, and all of it once
+  // there are many: it is far larger than any cache.
+  Eigen::MatrixXd taken(n, most_pending);
+  Eigen::Index pending = 0;
+  for (Eigen::Index left = n; left > static_cast<Eigen::Index>(count); --left) {
     Eigen::Index least = 0;
     double least_cost = std::numeric_limits<double>::infinity();
-    for (Eigen::Index i = 0; i < size; ++i)
-      if (const double cost = x[i] * x[i] / inverse(i, i); cost < least_cost) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!kept[static_cast<std::size_t>(i)])
+        continue;
+      if (const double cost = x[i] * x[i] / diagonal[i]; cost < least_cost) {
         least = i;
         least_cost = cost;
       }
-    // The last one takes its place.
-    const Eigen::Index last = size - 1;
-    if (least != last) {
-      inverse.col(least).head(size).swap(inverse.col(last).head(size));
-      inverse.row(least).head(size).swap(inverse.row(last).head(size));
-      std::swap(x[least], x[last]);
-      std::swap(left[static_cast<std::size_t>(least)], left[static_cast<std::size_t>(last)]);
     }
-    kept[static_cast<std::size_t>(left[static_cast<std::size_t>(last)])] = false;
-    const Eigen::VectorXd column = inverse.col(last).head(last);
-    const double pivot = inverse(last, last);
-    x.head(last) -= column * (x[last] / pivot);
-    inverse.topLeftCorner(last, last).noalias() -= (column / pivot) * column.transpose();
-    size = last;
+    kept[static_cast<std::size_t>(least)] = false;
+    Eigen::VectorXd column = inverse.col(least);
+    column.noalias() -= taken.leftCols(pending) * taken.row(least).head(pending).transpose();
+    const double pivot = column[least];
+    x -= column * (x[least] / pivot);
+    column /= std::sqrt(pivot);
+    diagonal -= column.cwiseAbs2();
+    taken.col(pending) = column;
+    if (++pending < most_pending)
+      continue;
+    inverse.noalias() -= taken * taken.transpose();
+    pending = 0;
   }
   return kept;
 }

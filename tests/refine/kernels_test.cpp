@@ -75,6 +75,24 @@ TEST(RefineKernels, TransposedProductsAreThoseOfEigen) {
   // 2053 products below one, summed in single precision in stretches of 256.
   EXPECT_LT((result.topRows(7) - expected).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_EQ(result(7, 0), 42);
+  const Eigen::VectorXf weights = Eigen::VectorXf::Random(2053);
+  kernels::multiply_weighted({a.data(), 2053, 7}, weights.data(), {b.data(), 2053, 5},
+                             result.data(), 9);
+  const Eigen::MatrixXd weighted = a.cast<double>().transpose() *
+                                   weights.cast<double>().asDiagonal() * b.cast<double>();
+  EXPECT_LT((result.topRows(7) - weighted).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_EQ(result(7, 0), 42);
+}
+
+TEST(RefineKernels, TransposedProductsOfDoublesAreThoseOfEigen) {
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(600, 7), b = Eigen::MatrixXd::Random(600, 5);
+  Eigen::MatrixXd result(7, 5);
+  // Some rows of the columns.
+  kernels::multiply_transposed(kernels::ColumnsOf<double>{a.data() + 3, 589, 7, 600},
+                               kernels::ColumnsOf<double>{b.data() + 5, 589, 5, 600},
+                               result.data(), 7);
+  const Eigen::MatrixXd expected = a.middleRows(3, 589).transpose() * b.middleRows(5, 589);
+  EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 }  // namespace
