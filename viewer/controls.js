@@ -21,7 +21,7 @@ const SLIDERS = {
   exposure: { label: 'exposure', scale: octaves, step: 0.05, span: [-6, 6] },
 };
 const CHOICES = {
-  view: { table: 'Table', table_b: 'Table B', ggx: 'GGX', difference: 'Difference',
+  view: { table: 'Table', table_b: 'Table B', ggx: '@BRDF@', difference: 'Difference',
           difference_b: 'Difference B', split: 'Split' },
   shape: { sphere: 'Sphere', plane: 'Plane', sheet: 'Sheet' },
   light: { rectangle: 'Rectangle', star: 'Star', disk: 'Disk', sphere: 'Sphere', line: 'Line',

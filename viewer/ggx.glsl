@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
 // GGX itself, by sampling: as src/brdf/ggx.cpp, without cancellation, and src/render/shading.cpp, with
-// samples of the light and of the lobe weighted by the balance heuristic.
+// samples of the light and of the lobe weighted by the balance heuristic. Other BRDFs are evaluated
+// in its place: Beckmann, whose tails are lighter, by the same samples, sheen by even ones.
 
 const float PI = 3.14159265;
+
+const int GGX = 0, BECKMANN = 1, CHARLIE = 2, ASHIKHMIN = 3;
+const int BRDF = GGX;  // the page's tables'
 
 struct Ggx {
   vec3 view;
@@ -26,16 +30,72 @@ Ggx ggx_of(vec3 view, vec2 alphas) {
   return ggx;
 }
 
+// Abramowitz and Stegun 7.1.26, to 1.5e-7; of what is not negative.
+float erfc_over_exp(float x) {
+  float t = 1.0 / (1.0 + 0.3275911 * x);
+  return t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 +
+              t * 1.061405429))));
+}
+
+// z Lambda of brdf/beckmann.h, s the stretched sine.
+float beckmann_z_lambda(float z, float s) {
+  float a = min(z / max(s, 1e-20), 9.0);
+  return max(0.5 * exp(-a * a) * (s * 0.56418958 - z * erfc_over_exp(a)), 0.0);
+}
+
+// BRDF times cosine.
+float beckmann(Ggx ggx, vec3 half_vector, vec3 light) {
+  if (half_vector.z <= 0.0 || light.z <= 0.0) {
+    return 0.0;
+  }
+  float z_squared = squared(half_vector.z);
+  float steepness = (squared(half_vector.x / ggx.alpha.x) + squared(half_vector.y / ggx.alpha.y)) /
+                    z_squared;
+  float ndf = exp(-steepness) * squared(dot(half_vector, half_vector) / z_squared) /
+              (PI * ggx.alpha.x * ggx.alpha.y);
+  float of_view = ggx.view.z + beckmann_z_lambda(ggx.view.z, length(ggx.alpha * ggx.view.xy));
+  float lambda = beckmann_z_lambda(light.z, length(ggx.alpha * light.xy)) / light.z;
+  return ndf / (4.0 * (of_view + ggx.view.z * lambda));
+}
+
+// brdf/charlie.h.
+float charlie_fit(float alpha, float x) {
+  float t = squared(1.0 - alpha);
+  return mix(21.5473, 25.3245, t) / (1.0 + mix(3.82987, 3.32435, t) *
+         pow(max(x, 1e-9), mix(0.19823, 0.16801, t))) - mix(1.97760, 1.27393, t) * x -
+         mix(4.32054, 4.85967, t);
+}
+float charlie_lambda(float alpha, float z) {
+  return z < 0.5 ? exp(charlie_fit(alpha, z))
+                 : exp(2.0 * charlie_fit(alpha, 0.5) - charlie_fit(alpha, 1.0 - z));
+}
+float sheen(Ggx ggx, vec3 half_vector, vec3 light) {
+  float v = ggx.view.z, l = light.z, alpha = ggx.alpha.x;
+  if (l <= 0.0) {
+    return 0.0;
+  }
+  float sine_squared = dot(half_vector.xy, half_vector.xy) / dot(half_vector, half_vector);
+  float ndf = (2.0 + 1.0 / alpha) * pow(sine_squared, 0.5 / alpha) / (2.0 * PI);
+  return BRDF == ASHIKHMIN
+             ? ndf * l / (4.0 * (v + l - v * l))
+             : ndf / ((1.0 + charlie_lambda(alpha, v) + charlie_lambda(alpha, l)) * 4.0 * v);
+}
+
 // BRDF times cosine, and the density of reflections about visible normals; of a half vector of any
 // length.
 vec2 ggx_densities(Ggx ggx, vec3 half_vector, vec3 light) {
+  if (BRDF == CHARLIE || BRDF == ASHIKHMIN) {
+    return vec2(sheen(ggx, half_vector, light), light.z > 0.0 ? 0.5 / PI : 0.0);
+  }
   float stretched = squared(half_vector.x / ggx.alpha.x) + squared(half_vector.y / ggx.alpha.y) +
                     squared(half_vector.z);
   float ndf = half_vector.z > 0.0 ? squared(dot(half_vector, half_vector) / stretched) /
                                         (PI * ggx.alpha.x * ggx.alpha.y)
                                   : 0.0;
   vec2 densities = vec2(0, ndf / (4.0 * ggx.vz_one_plus_lambda));
-  if (light.z > 0.0) {
+  if (BRDF == BECKMANN) {
+    densities.x = beckmann(ggx, half_vector, light);
+  } else if (light.z > 0.0) {
     vec2 slopes = ggx.alpha * light.xy;
     float s = dot(slopes, slopes);
     float lambda = s / (2.0 * light.z * (light.z + sqrt(light.z * light.z + s)));
@@ -47,6 +107,12 @@ vec2 ggx_densities(Ggx ggx, vec3 half_vector, vec3 light) {
 // The offset of a reflection from the mirror direction (-vx, -vy, vz), and v.h.
 vec4 ggx_sample(Ggx ggx, vec2 random) {
   float azimuth = 2.0 * PI * random.x;
+  if (BRDF == CHARLIE || BRDF == ASHIKHMIN) {
+    float sine_of_even = sqrt((1.0 - random.y) * (1.0 + random.y));
+    vec3 light = vec3(sine_of_even * vec2(cos(azimuth), sin(azimuth)), random.y);
+    return vec4(light - vec3(-ggx.view.xy, ggx.view.z),
+                sqrt(max(0.5 + 0.5 * dot(ggx.view, light), 0.0)));
+  }
   float depth = random.y * (1.0 + ggx.stretched.z);
   float above_rim = (1.0 - random.y) * (1.0 + ggx.stretched.z);
   float sine = sqrt(depth * (above_rim + ggx.one_minus_stretched_z));

@@ -176,7 +176,7 @@ class Viewer {
     element('rmse').classList.toggle('waiting', !figures);
     if (!figures) {
       element('rmse').textContent = '…';
-      element('noise').textContent = 'waiting for GGX';
+      element('noise').textContent = 'waiting for @BRDF@';
       element('done').style.width = '0';
       return;
     }
@@ -184,7 +184,7 @@ class Viewer {
     element('measured').classList.remove('stale');
     element('rmse').textContent = Number.isFinite(rmse) ? percent(rmse) : 'no light on it';
     element('noise').textContent = Number.isFinite(noise)
-      ? `noise of GGX in it ${percent(noise)}${noise > rmse / 5 ? ', still much' : ''}` : '';
+      ? `noise of @BRDF@ in it ${percent(noise)}${noise > rmse / 5 ? ', still much' : ''}` : '';
     element('done').style.width = figures.finished ? '100%' : `${100 * clamp(NOISE_WANTED / noise, 0, 1)}%`;
     this.probing = true;
   }
@@ -207,11 +207,11 @@ class Viewer {
 
   progress() {
     const { figures, measured } = this.stage;
-    if (!figures) return measured?.ready ? 'GGX is sampled.' : 'The table is drawn.';
+    if (!figures) return measured?.ready ? '@BRDF@ is sampled.' : 'The table is drawn.';
     const noise = `noise ${(100 * figures.errors[0].noise).toPrecision(2)} % of the mean`;
     const size = `${measured.width} × ${measured.height} pixels`;
-    return figures.finished ? `GGX is done: ${figures.samples} samples a pixel, ${noise}; ${size}.`
-      : `GGX is sampled: ${figures.samples} samples a pixel, ${noise}.`;
+    return figures.finished ? `@BRDF@ is done: ${figures.samples} samples a pixel, ${noise}; ${size}.`
+      : `@BRDF@ is sampled: ${figures.samples} samples a pixel, ${noise}.`;
   }
 
   say(sentence) {

@@ -82,7 +82,7 @@ class Probe {
                                         : `--entry ${nearestEntry(table, lobe).join(',')}`]];
     if (values) {
       const [t, g] = [values.tables[number], values.ggx];
-      rows.push(['table, GGX', `${t.toPrecision(3)}, ${g.toPrecision(3)}`]);
+      rows.push(['table, @BRDF@', `${t.toPrecision(3)}, ${g.toPrecision(3)}`]);
     }
     document.getElementById('entry').replaceChildren(...rows.map(([name, value]) => {
       const row = document.createElement('span'), label = document.createElement('i');

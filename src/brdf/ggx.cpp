@@ -70,7 +70,7 @@ LobeDensities GgxSampler::densities(const Eigen::Vector3d& omega_l) const {
 }
 
 LobeDensities GgxSampler::densities_at_offset(const Eigen::Vector3d& offset) const {
-  return densities_of({offset.x(), offset.y(), 2 * omega_v().z() + offset.z()}, mirror() + offset);
+  return densities_of({offset.x(), offset.y(), 2 * omega_v().z() + offset.z()}, axis() + offset);
 }
 
 // The cap is the part of the unit sphere with z > -v_z (v the stretched view direction). For a
@@ -87,20 +87,8 @@ Eigen::Vector3d GgxSampler::visible_normal(double cos_azimuth, double sin_azimut
       .normalized();
 }
 
-// l = 2 (v.h) h - v and m = (-vx, -vy, vz), so
-//   l - m = 2 ((v.h) hx, (v.h) hy, (v.h) hz - vz),
-//   (v.h) hz - vz = (v.h - vz) hz + vz (hz - 1),  v.h - vz = vx hx + vy hy + vz (hz - 1),
-// with hz - 1 = -(hx^2 + hy^2)/(1 + hz): every term is as small as the lobe is narrow.
 LobeSample GgxSampler::reflect(const Eigen::Vector3d& omega_h) const {
-  const double hz_minus_one = -(square(omega_h.x()) + square(omega_h.y())) / (1 + omega_h.z());
-  const double vz = omega_v().z();
-  const double v_dot_h_minus_vz =
-      omega_v().x() * omega_h.x() + omega_v().y() * omega_h.y() + vz * hz_minus_one;
-  LobeSample sample;
-  sample.v_dot_h = vz + v_dot_h_minus_vz;
-  sample.offset = 2 * Eigen::Vector3d(sample.v_dot_h * omega_h.x(), sample.v_dot_h * omega_h.y(),
-                                      v_dot_h_minus_vz * omega_h.z() + vz * hz_minus_one);
-  sample.omega_l = mirror() + sample.offset;
+  LobeSample sample = reflected(omega_h);
   if (sample.omega_l.z() > 0)
     sample.weight =
         (1 + lambda_v_) / (1 + lambda_v_ + ggx_lambda(alpha_x_, alpha_y_, sample.omega_l));

@@ -12,6 +12,8 @@
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 #include <hwy/highway.h>
 
+#include "brdf/reflection-inl.h"
+
 // What the kernels need to know of a lobe; shared by all targets.
 #ifndef LTC_GGX_KERNEL_ARGUMENTS
 #define LTC_GGX_KERNEL_ARGUMENTS
@@ -111,7 +113,7 @@ void SampleTargetKernel(const TargetParameters& parameters, const TargetLattice&
                         TargetSamples& samples) {
   const hn::CappedTag<float, 16> d;
   using V = hn::Vec<decltype(d)>;
-  const V one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), half = hn::Set(d, 0.5f);
+  const V one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
   const V zero = hn::Zero(d);
   const float stretched_x = parameters.alpha_x * parameters.view_x;
   const float stretched_y = parameters.alpha_y * parameters.view_y;
@@ -129,7 +131,6 @@ void SampleTargetKernel(const TargetParameters& parameters, const TargetLattice&
                                        (stretched_length * (stretched_length + parameters.view_z)));
   // 1 + Lambda(v) = (1 + |v stretched| / vz) / 2, equation (5).
   const V shadow_view = hn::Set(d, 0.5f * (1.0f + stretched_length / parameters.view_z));
-  const float* q = parameters.rotation;
   for (std::size_t i = 0; i < lattice.size(); i += hn::Lanes(d)) {
     // A point c of the spherical cap c_z in (-sz, 1]; the microfacet normal is c + s, unstretched.
     // At the rim, u near 1, both c_z + s_z and 1 + c_z are small: they are sums of terms of one
@@ -146,30 +147,16 @@ void SampleTargetKernel(const TargetParameters& parameters, const TargetLattice&
     const V scale = hn::Div(one, length);
     const V hx = hn::Mul(nx, scale), hy = hn::Mul(ny, scale);
     const V hz_less_one = hn::Neg(hn::Div(hn::Mul(lateral, scale), hn::Add(length, nz)));
-    // v.h - vz and the offset of the reflected direction 2 (v.h) h - v from the mirror's, both as
-    // sums of small terms.
-    const V dot_less_vz = hn::MulAdd(vx, hx, hn::MulAdd(vy, hy, hn::Mul(vz, hz_less_one)));
-    const V dot = hn::Add(dot_less_vz, vz);
-    const V ox = hn::Mul(two, hn::Mul(dot, hx));
-    const V oy = hn::Mul(two, hn::Mul(dot, hy));
-    const V oz = hn::Mul(two, hn::MulAdd(dot, hz_less_one, dot_less_vz));
-    const V lx = hn::Sub(ox, vx), ly = hn::Sub(oy, vy), lz = hn::Add(oz, vz);
+    const Reflection<V> at = reflect(d, vx, vy, vz, hx, hy, hz_less_one);
+    const V lx = hn::Sub(at.ox, vx), ly = hn::Sub(at.oy, vy), lz = hn::Add(at.oz, vz);
     // G2/G1 = (1 + Lambda(v)) / (1 + Lambda(v) + Lambda(l)), Lambda(l) = (|l stretched|/lz - 1)/2.
     const V slx = hn::Mul(ax, lx), sly = hn::Mul(ay, ly);
     const V stretched_light = hn::Sqrt(hn::MulAdd(slx, slx, hn::MulAdd(sly, sly, hn::Mul(lz, lz))));
     const V numerator = hn::Mul(shadow_view, lz);
     const V denominator = hn::MulAdd(half, hn::Sub(stretched_light, lz), hn::Mul(shadow_view, lz));
     const V weight = hn::Div(numerator, denominator);
-    hn::Store(hn::IfThenElseZero(hn::Gt(lz, zero), weight), d, samples.weight.data() + i);
-    hn::Store(hn::MulAdd(hn::Set(d, q[0]), ox,
-                         hn::MulAdd(hn::Set(d, q[3]), oy, hn::Mul(hn::Set(d, q[6]), oz))),
-              d, samples.gx.data() + i);
-    hn::Store(hn::MulAdd(hn::Set(d, q[1]), ox,
-                         hn::MulAdd(hn::Set(d, q[4]), oy, hn::Mul(hn::Set(d, q[7]), oz))),
-              d, samples.gy.data() + i);
-    // m . (l - m) = -|l - m|^2 / 2 for unit vectors.
-    const V squared = hn::MulAdd(ox, ox, hn::MulAdd(oy, oy, hn::Mul(oz, oz)));
-    hn::Store(hn::Neg(hn::Mul(half, squared)), d, samples.gz.data() + i);
+    store_samples(d, parameters.rotation, at, hn::IfThenElseZero(hn::Gt(lz, zero), weight), i,
+                  samples);
   }
 }
 
@@ -187,6 +174,7 @@ namespace {
 class GgxModel final : public LobeModel {
  public:
   std::string_view name() const override { return "ggx"; }
+  std::string_view label() const override { return "GGX"; }
   std::unique_ptr<LobeSampler> sampler(const Lobe& lobe) const override {
     return std::make_unique<GgxSampler>(lobe);
   }

@@ -4,13 +4,19 @@
 
 #include <fmt/format.h>
 
+#include "brdf/beckmann.h"
+#include "brdf/charlie.h"
+#include "brdf/ggx.h"
+#include "brdf/measured.h"
 #include "core/error.h"
 
 namespace ltc {
 namespace {
 
 std::vector<const LobeModel*>& models() {
-  static std::vector<const LobeModel*> all = {&ggx()};
+  static std::vector<const LobeModel*> all = {&ggx(), &beckmann(),
+                                              &charlie(SheenVisibility::charlie),
+                                              &charlie(SheenVisibility::ashikhmin)};
   return all;
 }
 
@@ -20,10 +26,13 @@ const LobeModel& lobe_model(std::string_view name) {
   for (const LobeModel* model : models())
     if (model->name() == name)
       return *model;
+  if (names_brdf_file(name))
+    return measured(name);
   std::string names;
   for (const LobeModel* model : models())
     names += (names.empty() ? "" : ", ") + std::string(model->name());
-  throw InputError(fmt::format("BRDF \"{}\"; expected one of: {}", name, names));
+  throw InputError(
+      fmt::format("BRDF \"{}\"; expected one of: {}, or a file of values (.h5)", name, names));
 }
 
 const std::vector<const LobeModel*>& lobe_models() {
@@ -48,6 +57,7 @@ void LobeSampler::sample_all(const SampleLattice& lattice, WeightedSamples& samp
 void LobeModel::sample_target(const Lobe& lobe, const Eigen::Matrix3d& rotation,
                               const TargetLattice& lattice, TargetSamples& samples) const {
   const std::unique_ptr<LobeSampler> from = sampler(lobe);
+  const double scale = 1 / from->most_weight();
   for (std::size_t i = 0; i < lattice.size(); ++i) {
     const LobeSample found =
         from->sample(lattice.cos_azimuth[i], lattice.sin_azimuth[i], lattice.height[i]);
@@ -55,7 +65,7 @@ void LobeModel::sample_target(const Lobe& lobe, const Eigen::Matrix3d& rotation,
     samples.gx[i] = offset.x();
     samples.gy[i] = offset.y();
     samples.gz[i] = offset.z();
-    samples.weight[i] = static_cast<float>(found.weight);
+    samples.weight[i] = static_cast<float>(found.weight * scale);
   }
 }
 
@@ -69,6 +79,14 @@ Albedo LobeModel::albedo(const Lobe& lobe, const AlbedoRule& rule) const {
     sum.fresnel += share * std::pow(1 - found.v_dot_h, 5);
   }
   return sum;
+}
+
+Eigen::Matrix3d LobeModel::frame(const Lobe& lobe) const {
+  return mirror_rotation(lobe.omega_v());
+}
+
+Eigen::Vector3d LobeModel::widths(const Lobe& lobe) const {
+  return {lobe.alpha_x, lobe.alpha_y, 1};
 }
 
 // Reflecting about the normal of slopes (p, q), to first order: l = m + p (2vz, 0, 2vx) + q (0,

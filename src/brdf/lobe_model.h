@@ -19,8 +19,8 @@
 
 namespace ltc {
 
-// Samples of a lobe as offsets from its mirror direction, in a frame whose z that is: what the
-// fit's kernels take.
+// Samples of a lobe as offsets from its axis, in a frame whose z that is: what the fit's kernels
+// take. Weights are relative to one another.
 struct TargetSamples {
   AlignedFloats gx, gy, gz, weight;
   std::size_t size = 0;     // multiple of 16
@@ -33,20 +33,27 @@ class LobeModel {
  public:
   virtual ~LobeModel() = default;
 
-  // As configs and files have it.
+  // As configs and files have it; and as people read it above a picture.
   virtual std::string_view name() const = 0;
+  virtual std::string_view label() const { return name(); }
 
   virtual std::unique_ptr<LobeSampler> sampler(const Lobe& lobe) const = 0;
 
   // The hot ones, by the sampler where a model has nothing faster: weighted samples on a lattice in
-  // the frame of `rotation` (its columns the frame's axes, the last one the mirror direction), and
-  // the integrals of albedo.h.
+  // the frame of `rotation` (its columns the frame's axes, as frame() has them), and the integrals
+  // of albedo.h.
   virtual void sample_target(const Lobe& lobe, const Eigen::Matrix3d& rotation,
                              const TargetLattice& lattice, TargetSamples& samples) const;
   virtual Albedo albedo(const Lobe& lobe, const AlbedoRule& rule) const;
 
-  // M diag(1/alpha_x, 1/alpha_y, 1) to first order in the slopes, up to a rotation about the mirror
-  // direction's axis: a clamped cosine's slopes sent to where microfacets of such slopes reflect.
+  // Where a lobe is fitted: Q, a rotation whose last column is the axis that samplers count from,
+  // and A, the lengths that the columns of M are divided by, so that P = Q^T M A^-1 is of the order
+  // of 1 (fit/lobe_frame.h). The least rotation to the mirror direction, and (alpha_x, alpha_y, 1).
+  virtual Eigen::Matrix3d frame(const Lobe& lobe) const;
+  virtual Eigen::Vector3d widths(const Lobe& lobe) const;
+
+  // M A^-1 to first order in the slopes, up to a rotation about the axis: a clamped cosine's slopes
+  // sent to where microfacets of such slopes reflect. Where a lobe is no mirror's, a likely start.
   virtual Eigen::Matrix3d first_order(const Lobe& lobe) const;
   // Up to which larger roughness over the squared cosine of the view's elevation that matrix needs
   // no fit; 0 where it always does.
@@ -55,9 +62,22 @@ class LobeModel {
   // Whether the lobe's slopes have tails without a variance, whose quantiles grow as tau^(-1/2)
   // with the mass tau beyond them, as GGX has. Then sharp lobes are fitted with graded samples.
   virtual bool heavy_tails() const { return false; }
+
+  // Whether lobes gather about the mirror direction, as those of every microfacet model do: so that
+  // fields, folds and the reading of others' tables make sense of them.
+  virtual bool about_mirror() const { return true; }
+
+  // Whether no lobe reflects more light than it gets, so that amplitudes are at most 1.
+  virtual bool conserves_energy() const { return true; }
+
+  // The least roughness of its lobes.
+  virtual double least_alpha() const { return 0; }
+  // Throws InputError, in one line, for a lobe that the model has no values for.
+  virtual void require(const Lobe&) const {}
 };
 
-// The one of this name. Throws InputError, naming those there are.
+// The one of this name, which may be that of a file of values (brdf/measured.h). Throws InputError,
+// naming those there are.
 const LobeModel& lobe_model(std::string_view name);
 const std::vector<const LobeModel*>& lobe_models();
 

@@ -14,12 +14,12 @@ namespace ltc {
 
 // One light direction that a point of the unit square gives.
 struct LobeSample {
-  // omega_l - mirror, accurate relative to the width of the lobe however sharp it is.
+  // omega_l - LobeSampler::axis, accurate relative to the width of the lobe however sharp it is.
   Eigen::Vector3d offset;
   Eigen::Vector3d omega_l;
   double v_dot_h = 0;  // cosine between the view direction and the half vector
-  // What is left of the cosine-weighted BRDF over the density of such samples, in [0, 1]. Zero
-  // below the horizon. The mean over all samples is the amplitude.
+  // What is left of the cosine-weighted BRDF over the density of such samples, in [0,
+  // LobeSampler::most_weight]. Zero below the horizon. The mean over all samples is the amplitude.
   double weight = 0;
 };
 
@@ -32,27 +32,33 @@ struct LobeDensities {
 // Light directions of a lobe. The distribution is proportional to the cosine-weighted BRDF when
 // each is counted with its weight.
 struct WeightedSamples {
-  Eigen::ArrayX3d offset;  // omega_l - mirror, one row a sample, columns x, y, z contiguous
-  Eigen::ArrayXd weight;   // in [0, 1]; their mean is the amplitude
-  Eigen::Vector3d mirror;  // (-vx, -vy, vz): omega_l = mirror + offset
+  Eigen::ArrayX3d offset;  // omega_l - axis, one row a sample, columns x, y, z contiguous
+  Eigen::ArrayXd weight;   // their mean is the amplitude
+  Eigen::Vector3d axis;    // the sampler's: omega_l = axis + offset
 };
 
 class LobeSampler {
  public:
+  // Of lobes about the mirror direction (-vx, -vy, vz), and about any other.
   explicit LobeSampler(const Eigen::Vector3d& omega_v)
-      : omega_v_(omega_v), mirror_(-omega_v.x(), -omega_v.y(), omega_v.z()) {}
+      : LobeSampler(omega_v, {-omega_v.x(), -omega_v.y(), omega_v.z()}) {}
+  LobeSampler(const Eigen::Vector3d& omega_v, const Eigen::Vector3d& axis)
+      : omega_v_(omega_v), axis_(axis) {}
   virtual ~LobeSampler() = default;
 
   const Eigen::Vector3d& omega_v() const { return omega_v_; }
-  // Where a smooth surface would reflect to: (-vx, -vy, vz).
-  const Eigen::Vector3d& mirror() const { return mirror_; }
+  // Whence offsets are counted: the third column of LobeModel::frame.
+  const Eigen::Vector3d& axis() const { return axis_; }
 
-  // At a unit direction, and at one relative to the mirror direction, which loses no digits in
-  // lobes as narrow as 1e-6.
+  // At a unit direction, and at one relative to the axis, which loses no digits in lobes as narrow
+  // as 1e-6.
   virtual LobeDensities densities(const Eigen::Vector3d& omega_l) const = 0;
   virtual LobeDensities densities_at_offset(const Eigen::Vector3d& offset) const {
-    return densities(mirror_ + offset);
+    return densities(axis_ + offset);
   }
+
+  // Not below the weight of any sample.
+  virtual double most_weight() const { return 1; }
 
   double brdf_cosine(const Eigen::Vector3d& omega_l) const {
     return densities(omega_l).brdf_cosine;
@@ -63,7 +69,7 @@ class LobeSampler {
 
   // A light direction from two uniforms on [0, 1), the first as the cosine and sine of as many
   // turns: a map that is continuous in both and periodic in the azimuth, so that lattices do well;
-  // where the lobe has heavy tails (LobeModel::tails), they are at u_height near 1.
+  // where the lobe has heavy tails (LobeModel::heavy_tails), they are at u_height near 1.
   virtual LobeSample sample(double cos_azimuth, double sin_azimuth, double u_height) const = 0;
   LobeSample sample(double u_azimuth, double u_height) const {
     const double azimuth = 2 * std::numbers::pi * u_azimuth;
@@ -84,19 +90,38 @@ class LobeSampler {
       const double u_azimuth = uniform();
       const double u_height = uniform();
       const LobeSample found = sample(u_azimuth, u_height);
-      if (uniform() < found.weight)
+      if (uniform() * most_weight() < found.weight)
         return found;
     }
   }
 
  protected:
+  // The view direction reflected about a unit microfacet normal on or above the horizon, of weight
+  // zero, for a lobe about the mirror direction m. l = 2 (v.h) h - v and m = (-vx, -vy, vz), so
+  //   l - m = 2 ((v.h) hx, (v.h) hy, (v.h) hz - vz),
+  //   (v.h) hz - vz = (v.h - vz) hz + vz (hz - 1),  v.h - vz = vx hx + vy hy + vz (hz - 1),
+  // with hz - 1 = -(hx^2 + hy^2)/(1 + hz): every term is as small as the lobe is narrow.
+  LobeSample reflected(const Eigen::Vector3d& omega_h) const {
+    const double hz_minus_one =
+        -(omega_h.x() * omega_h.x() + omega_h.y() * omega_h.y()) / (1 + omega_h.z());
+    const double vz = omega_v_.z();
+    const double v_dot_h_minus_vz =
+        omega_v_.x() * omega_h.x() + omega_v_.y() * omega_h.y() + vz * hz_minus_one;
+    LobeSample sample;
+    sample.v_dot_h = vz + v_dot_h_minus_vz;
+    sample.offset = 2 * Eigen::Vector3d(sample.v_dot_h * omega_h.x(), sample.v_dot_h * omega_h.y(),
+                                        v_dot_h_minus_vz * omega_h.z() + vz * hz_minus_one);
+    sample.omega_l = axis_ + sample.offset;
+    return sample;
+  }
+
   // sample_all by `one`, for those whose samples are quicker than a virtual call.
   template <class One>
   void fill(const SampleLattice& lattice, WeightedSamples& samples, One&& one) const {
     const auto count = static_cast<Eigen::Index>(lattice.size());
     samples.offset.resize(count, 3);
     samples.weight.resize(count);
-    samples.mirror = mirror_;
+    samples.axis = axis_;
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const LobeSample found =
@@ -107,7 +132,7 @@ class LobeSampler {
   }
 
  private:
-  Eigen::Vector3d omega_v_, mirror_;
+  Eigen::Vector3d omega_v_, axis_;
 };
 
 }  // namespace ltc

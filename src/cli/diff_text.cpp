@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "brdf/lobe_model.h"
 #include "cli/diff_report.h"
 #include "cli/fit_command.h"
 #include "cli/lobe_words.h"
@@ -60,7 +61,9 @@ std::string verdict_text(const DiffReport& report) {
     parts.push_back(fmt::format("at nodes{} {}",
                                 has_mirrors_and_others(report.grid()) ? " of alpha > min" : "",
                                 nearer_text(report.nodes->losses)));
-  return parts.empty() ? "" : fmt::format("nearer to GGX: {}\n", fmt::join(parts, ", "));
+  return parts.empty() ? ""
+                       : fmt::format("nearer to {}: {}\n", report.grid().model->label(),
+                                     fmt::join(parts, ", "));
 }
 
 // At its nodes a refined table is worse on purpose.

@@ -11,6 +11,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "brdf/lobe_model.h"
 #include "cli/json_text.h"
 #include "cli/lobe_words.h"
 #include "judge/matrix_invariants.h"
@@ -241,9 +242,10 @@ std::string trace_csv(const FitReport& report) {
 picture::Words picture_words(const FitReport& report) {
   const LobeFit& fit = report.fit;
   picture::Words words;
-  words.title = report.entry ? "Entry " + entry_text(report.grid, *report.entry)
-                             : std::string(fit.ltc ? "GGX lobe, its LTC, and one that is folded"
-                                                   : "GGX lobe and its LTC");
+  words.title =
+      report.entry ? "Entry " + entry_text(report.grid, *report.entry)
+                   : std::string(fit.lobe.model->label()) +
+                         (fit.ltc ? " lobe, its LTC, and one that is folded" : " lobe and its LTC");
   words.subtitle = lobe_caption(fit.lobe);
   const std::size_t steps = named_steps(report).size();
   words.lines_below = {

@@ -24,7 +24,8 @@ std::string row_text(const std::string& what, const Statistics& d) {
 std::string noise_text(double noise) {
   return std::isnan(noise)
              ? ""
-             : fmt::format("  noise of the GGX that they are judged by: {:.1e} a light\n", noise);
+             : fmt::format("  noise of the samples that they are judged by: {:.1e} a light\n",
+                           noise);
 }
 
 std::string figures_text(const QualityReport& quality) {

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "brdf/lobe_model.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/light_options.h"
@@ -149,6 +150,7 @@ RenderReport report_of(const Arguments& arguments, const std::vector<SphereMater
   report.two_sided = arguments.light.two_sided;
   report.samples = arguments.settings.samples;
   report.horizon = name_of(arguments.settings.horizon);
+  report.reference = tables.tables.front().grid.model->label();
   report.size = arguments.settings.size;
   report.picture = destination.picture();
   for (const SphereMaterial& material : materials) {
@@ -222,14 +224,15 @@ SpherePicture picture_of(const Arguments& arguments, const RenderReport& report)
       fmt::format("{} under {}", plural_of(content.shape), one_line(arguments.light.text()));
   content.title.front() = static_cast<char>(std::toupper(content.title.front()));
   content.caption = {
-      fmt::format("{}. GGX: multiple importance sampling, {} samples a pixel.",
+      fmt::format("{}. {}: multiple importance sampling, {} samples a pixel.",
                   content.shape == ObjectShape::sphere
                       ? "x along the parallels about the upright axis, y along the meridians"
                       : "x to the right, y away from the camera",
-                  report.samples),
+                  report.reference, report.samples),
       "Differences and errors are in units of the light's radiance. " + tables_text(report)};
   content.tables = report.names;
   content.rows = report.rows;
+  content.reference = report.reference;
   return content;
 }
 

@@ -79,10 +79,10 @@ std::string clamping_warnings(const RenderReport& report) {
 
 std::string report_text(const RenderReport& report) {
   std::string text = fmt::format(
-      "{}\nmean |error| in units of the light's radiance; RMSE, and the noise of GGX in it, over "
-      "the mean of GGX\n\n{:>8} {:>8}  {:<7} {:>12} {:>13} {:>12}  {:>8}\n",
-      tables_text(report), "alpha_x", "alpha_y", "table", "mean |error|", "RMSE", "noise",
-      "seconds");
+      "{}\nmean |error| in units of the light's radiance; RMSE, and the noise of {} in it, over "
+      "its mean\n\n{:>8} {:>8}  {:<7} {:>12} {:>13} {:>12}  {:>8}\n",
+      tables_text(report), report.reference, "alpha_x", "alpha_y", "table", "mean |error|", "RMSE",
+      "noise", "seconds");
   for (std::size_t row = 0; row < report.rows.size(); ++row)
     for (std::size_t table = 0; table < report.names.size(); ++table)
       text += row_text(report, row, table);

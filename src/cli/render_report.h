@@ -20,6 +20,7 @@ struct RenderReport {
   bool two_sided = false;
   std::size_t samples = 0, size = 0;
   std::string_view horizon;  // "clipped", "scaled"
+  std::string reference = "GGX";  // what is sampled, LobeModel::label
   // One a material.
   std::vector<SphereRow> rows;
   std::vector<double> seconds;

@@ -123,6 +123,17 @@ StressReport prepared(const Arguments& arguments, const Solver& solver) {
         random_lobes(arguments.quick ? quick_random_lobes : full_random_lobes, fit.seed);
     task.lobes.insert(task.lobes.end(), random.begin(), random.end());
   }
+  const LobeModel& model = *solver.config.grid.model;
+  task.lobes = lobes_of_model(task.lobes, model);
+  if (task.lobes.empty())
+    throw InputError(
+        fmt::format("BRDF \"{}\" has none of the lobes of a stress run", model.name()));
+  std::erase_if(report.axes.lambda, [&](double lambda) {
+    return std::ranges::find(task.lobes, lambda, &StressLobe::lambda) == task.lobes.end();
+  });
+  std::erase_if(report.axes.alpha, [&](double alpha) {
+    return std::ranges::find(task.lobes, alpha, &StressLobe::alpha) == task.lobes.end();
+  });
   const std::size_t starts = stress_starts().size();
   if (arguments.fits)
     task.lobes = limited(task.lobes, (*arguments.fits + starts - 1) / starts, fit.seed);

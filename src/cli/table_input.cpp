@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "brdf/lobe_model.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "core/error.h"
@@ -20,7 +21,8 @@ void add_layout_option(CLI::App& app, std::optional<ReadAs>& as) {
     if (value_named<TextureLayout>(name) != TextureLayout::automatic)
       names.push_back(name);
   const auto set = [&as, axes](const std::string& name) {
-    as.emplace();
+    if (!as)
+      as.emplace();
     if (std::ranges::find(axes, name) != axes.end())
       as->axes = value_named<Layout>(name);
     else
@@ -35,6 +37,17 @@ void add_layout_option(CLI::App& app, std::optional<ReadAs>& as) {
           endings_text([](const Format& format) { return format.without_axes; }),
           fmt::join(names.begin() + static_cast<std::ptrdiff_t>(axes.size()), names.end(), ", ")));
   allow_names(option, names)->option_text("LAYOUT")->group("How to read tables");
+  app.add_option_function<std::string>(
+         "--brdf",
+         [&as](const std::string& name) {
+           if (!as)
+             as.emplace();
+           as->model = &lobe_model(name);
+         },
+         "the BRDF of files that do not name theirs, by which they are judged, as table.brdf has "
+         "it [ggx]")
+      ->option_text("NAME")
+      ->group("How to read tables");
 }
 
 Table read_input(const std::string& file, const std::optional<ReadAs>& as, FoldedLobes folded) {
@@ -44,7 +57,8 @@ Table read_input(const std::string& file, const std::optional<ReadAs>& as, Folde
         "{}: its lobes are folded; expected a table or field of plain ones (docs/folded.md)",
         one_line(file)));
   // A line that cannot be written is no reason to stop.
-  if (!as && !table.read_as.empty())
+  const bool told = as && (as->axes || as->textures != TextureLayout::automatic);
+  if (!told && !table.read_as.empty())
     std::fputs(fmt::format("{}: {}\n", one_line(file), table.read_as).c_str(), stderr);
   return table;
 }

@@ -2,7 +2,10 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "config/registry.h"
 
+#include <algorithm>
+
 #include "brdf/lobe_model.h"
+#include "brdf/measured.h"
 
 namespace ltc::config {
 namespace {
@@ -30,13 +33,34 @@ std::vector<Key> axis_keys(std::string section, Member axis, std::string_view un
   };
 }
 
+// One of the models by its name, or a file of values.
+Key brdf_key() {
+  std::string allowed;
+  for (const LobeModel* model : lobe_models())
+    allowed += quoted(model->name()) + ", ";
+  return {"table.brdf", allowed + "or the name of a file of values, ending in .h5",
+          "the BRDF that is fitted (docs/materials.md)",
+          [](Draft& d, const Value& value) {
+            const auto* text = std::get_if<std::string>(&value);
+            const auto named = [&](const LobeModel* model) {
+              return text && model->name() == *text;
+            };
+            const auto found = std::ranges::find_if(lobe_models(), named);
+            if (found != lobe_models().end())
+              d.config.grid.model = *found;
+            else if (text && names_brdf_file(*text))
+              d.config.grid.model = &measured(*text);
+            else
+              return false;
+            return true;
+          },
+          [](const Draft& d) -> Value { return std::string(d.config.grid.model->name()); }};
+}
+
 // clang-format off
 std::vector<Key> table_keys() {
-  Choices<const LobeModel*> brdfs;
-  for (const LobeModel* model : lobe_models())
-    brdfs.emplace_back(model->name(), model);
   std::vector<Key> all = {
-      key("table.brdf", [](Draft& d) { return &d.config.grid.model; }, brdfs, "the BRDF that is fitted"),
+      brdf_key(),
       key("table.storage", [](Draft& d) { return &d.config.storage; }, "what the table holds and a reader interpolates"),
       key("table.alpha_min", [](Draft& d) { return &d.config.grid.alpha_min; }, Range{1e-6, 1}, "least roughness: smaller alpha_x and alpha_y are raised to it"),
   };

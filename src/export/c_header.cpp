@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
+#include "core/file.h"
 #include "core/write_file.h"
 #include "export/c_header_parts.h"
 #include "export/field_code.h"
-#include "export/file.h"
 #include "export/format.h"
 #include "table/reduction.h"
 

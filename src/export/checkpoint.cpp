@@ -9,10 +9,10 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/hdf5_file.h"
+#include "core/hdf5_guard.h"
 #include "core/version.h"
 #include "core/write_file.h"
-#include "export/hdf5_file.h"
-#include "export/hdf5_guard.h"
 
 namespace ltc {
 namespace {

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "export/file.h"
+#include "core/file.h"
 
 namespace ltc {
 namespace {

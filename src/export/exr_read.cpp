@@ -18,11 +18,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "brdf/lobe_model.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "export/consistency.h"
 #include "export/exr_header.h"
 #include "export/exr_layout.h"
-#include "export/file.h"
 
 namespace ltc {
 namespace {
@@ -62,6 +63,12 @@ Grid read_grid(const Imf::Header& header, const fs::path& path) {
     refuse(path, fmt::format("header attribute ltc:axes or ltc:warp: {}", error.what()));
   }
   grid.alpha_min = attribute<Imf::DoubleAttribute>(header, "ltc:alpha_min", path);
+  if (constexpr const char* brdf = "ltc:brdf"; header.find(brdf) != header.end())
+    try {
+      grid.model = &lobe_model(attribute<Imf::StringAttribute>(header, brdf, path));
+    } catch (const InputError& error) {
+      refuse(path, fmt::format("{}: {}", brdf, error.what()));
+    }
   require_consistent(grid, path);
   return grid;
 }

@@ -22,12 +22,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "brdf/lobe_model.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "core/parallel.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
 #include "export/exr_layout.h"
-#include "export/file.h"
 #include "export/nearest.h"
 
 namespace ltc {
@@ -80,6 +81,8 @@ Imf::Header make_header(const Table& table, std::size_t file, Imf::PixelType typ
   header.insert("ltc:warp", Imf::StringAttribute(warps.dump()));
   header.insert("ltc:storage", Imf::StringAttribute(std::string(name_of(table.storage))));
   header.insert("ltc:alpha_min", Imf::DoubleAttribute(table.grid.alpha_min));
+  if (table.grid.model != &ggx())
+    header.insert("ltc:brdf", Imf::StringAttribute(std::string(table.grid.model->name())));
   if (table.refined)
     header.insert("ltc:refined", Imf::IntAttribute(*table.refined));
   if (is_folded(table))

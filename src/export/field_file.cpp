@@ -11,10 +11,10 @@
 
 #include "brdf/lobe_model.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "core/read_file.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
-#include "export/file.h"
 #include "table/field_table.h"
 
 namespace ltc {

@@ -35,6 +35,7 @@ struct WriteOptions {
 struct ReadAs {
   std::optional<Layout> axes;  // of arrays without axes; else told apart
   TextureLayout textures = TextureLayout::automatic;
+  const LobeModel* model = nullptr;  // the BRDF; null: GGX
 };
 
 // The files of one table, in the order of the format's endings.

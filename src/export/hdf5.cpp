@@ -14,12 +14,13 @@
 
 #include "brdf/lobe_model.h"
 #include "core/error.h"
+#include "core/hdf5_file.h"
+#include "core/hdf5_guard.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
 #include "export/field_file.h"
 #include "export/format.h"
-#include "export/hdf5_file.h"
-#include "export/hdf5_guard.h"
+#include "export/hdf5.h"
 
 namespace ltc {
 

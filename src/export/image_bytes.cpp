@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "export/file.h"
+#include "core/file.h"
 
 namespace ltc {
 namespace {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "export/file.h"
+#include "core/file.h"
 #include "export/image.h"
 
 namespace ltc {

@@ -185,8 +185,12 @@ Grid grid_of(const IsotropicAxes& axes, std::size_t alphas, std::size_t thetas) 
 std::string why_not(const IsotropicLayout& layout, const Grid& grid, Storage storage) {
   if (layout.read_only)
     return fmt::format("takes layout {} for reading only", name_of(layout.layout));
-  const Grid expected = grid_of(layout.axes, std::max<std::size_t>(grid.alpha.size(), 2),
-                                std::max<std::size_t>(grid.theta.size(), 2));
+  Grid expected = grid_of(layout.axes, std::max<std::size_t>(grid.alpha.size(), 2),
+                          std::max<std::size_t>(grid.theta.size(), 2));
+  if (grid.model != expected.model) {  // which engines' tables know nothing of
+    expected.model = grid.model;
+    expected.alpha_min = grid.alpha_min;
+  }
   if (storage == layout.storage && grid == expected)
     return "";
   return fmt::format("holds isotropic tables of storage {} only, on the axes of config/{}.toml",

@@ -14,8 +14,8 @@
 #include <span>
 
 #include "core/angle.h"
+#include "core/file.h"
 #include "core/range.h"
-#include "export/file.h"
 #include "export/npy_header.h"
 
 namespace ltc {

@@ -18,10 +18,10 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/quantile.h"
 #include "core/write_file.h"
 #include "export/consistency.h"
-#include "export/file.h"
 #include "export/format.h"
 #include "export/isotropic_layout.h"
 #include "export/npy_header.h"
@@ -139,7 +139,9 @@ void set_status(Table& table) {
 
 // An array says nothing of axes: readers take those of Grid::paper, with its own node counts.
 std::string limits_of_npy(const Grid& grid, Storage, TextureLayout) {
-  return grid == Grid::paper(grid.shape()) ? "" : "holds the paper's grid only";
+  Grid expected = Grid::paper(grid.shape());
+  expected.model = grid.model;  // of which an array says nothing either
+  return grid == expected ? "" : "holds the paper's grid only";
 }
 
 std::vector<float> matrices_of(const Table& table) {

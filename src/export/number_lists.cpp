@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "export/file.h"
+#include "core/file.h"
 #include "export/image_bytes.h"
 #include "export/number_text.h"
 

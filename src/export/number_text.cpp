@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "export/file.h"
+#include "core/file.h"
 #include "export/image_bytes.h"
 #include "export/number_lists.h"
 

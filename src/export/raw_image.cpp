@@ -10,7 +10,7 @@
 
 #include "core/enum_names.h"
 #include "core/error.h"
-#include "export/file.h"
+#include "core/file.h"
 #include "export/image_bytes.h"
 
 namespace ltc {

@@ -36,7 +36,11 @@ Table read_table(const std::filesystem::path& path, const ReadAs& as) {
   if (!is_read(*set.format))
     throw InputError(fmt::format("{}: files of {} are only written; allowed: {}", path.string(),
                                  set.format->name, endings_text(is_read)));
-  return set.format->read(set.files, as);
+  Table table = set.format->read(set.files, as);
+  // HDF5 and fields name theirs, OpenEXR any but GGX.
+  if (as.model && table.grid.model == &ggx() && !keeps_fits(*set.format) && !set.format->of_fields)
+    table.grid.model = as.model;
+  return table;
 }
 
 void write_table(const Table& table, const std::filesystem::path& path,

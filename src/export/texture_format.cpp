@@ -128,7 +128,7 @@ Format texture_format(const Container& container) {
                         TextureLayout layout) { return limits(container, grid, storage, layout); },
           .read =
               [container](const TableFiles& files, const ReadAs& as) {
-                return table_of(decode_all(container, files), as.textures, files.front());
+                return table_of(decode_all(container, files), as.textures, files.front(), as.model);
               },
           .add = container.encode ? std::bind_front(add, container) : decltype(Format::add)()};
 }

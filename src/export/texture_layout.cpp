@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "brdf/lobe_model.h"
 #include "core/error.h"
 #include "export/consistency.h"
 #include "export/entry_channels.h"
@@ -23,6 +24,8 @@ namespace {
 // the logarithms of their widths, the square root of what det M is of a unit third column, from
 // those of first order. Some tenths where the table is read aright.
 double mean_distance(const Table& table) {
+  if (!table.grid.model->about_mirror())
+    return 0;  // nothing to judge by
   double sum = 0;
   int count = 0;
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
@@ -39,7 +42,7 @@ double mean_distance(const Table& table) {
     sum += std::isfinite(distance) ? distance : std::numbers::pi;
     ++count;
   }
-  return count ? sum / count : 0;  // nothing to judge by
+  return count ? sum / count : 0;  // likewise
 }
 
 // Right readings of published tables are at 0.05 to 0.12, wrong ones at 0.5 and more.
@@ -200,7 +203,7 @@ std::vector<Image> images_of(const Table& table, TextureLayout layout) {
 }
 
 Table table_of(const std::vector<Image>& images, TextureLayout layout,
-               const std::filesystem::path& file) {
+               const std::filesystem::path& file, const LobeModel* model) {
   if (images.empty())
     throw InputError(fmt::format("{}: no images; expected those of a table", file.string()));
   for (const Image& image : images)
@@ -218,6 +221,10 @@ Table table_of(const std::vector<Image>& images, TextureLayout layout,
       continue;
     }
     Table table = read_as(theirs, candidate, file);
+    if (model) {
+      table.grid.model = model;
+      table.grid.alpha_min = std::max(table.grid.alpha_min, model->least_alpha());
+    }
     const double distance = mean_distance(table);
     judged += fmt::format("{}{} {:.3g}", judged.empty() ? "" : ", ", name, distance);
     if (best && distance > 0.99 * least)  // the same table twice: the first that is listed

@@ -32,8 +32,9 @@ std::vector<Image> images_of(const Table& table, TextureLayout layout);
 // and of two that look alike that whose lobes are where a mirror would have them. Amplitude and
 // Fresnel terms that the images lack are NaN; Table::read_as says what was taken and why. Throws
 // InputError, naming `file`, for images of no layout or not of the one asked for, and values that
-// are not finite.
+// are not finite. Images of a `model` whose lobes are not about the mirror direction are taken for
+// the first layout of their shape.
 Table table_of(const std::vector<Image>& images, TextureLayout layout,
-               const std::filesystem::path& file);
+               const std::filesystem::path& file, const LobeModel* model = nullptr);
 
 }  // namespace ltc

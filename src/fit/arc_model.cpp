@@ -130,11 +130,13 @@ void set_target(const TargetSamples& samples, const ArcDirections& directions, c
     target.along[k] = {static_cast<float>(counts.centre), static_cast<float>(counts.scale)};
     for (std::size_t j = 0; j < near; ++j)
       target.above[k * count + j] = static_cast<float>(above[j]);
-    // Far thresholds find tails as those of GGX slopes, of what is left above the last near ones.
+    // Far thresholds find tails as those of GGX slopes, of what is left above the last near ones,
+    // or nothing of a lobe that has no such tails.
     for (std::size_t j = near; j < count; ++j) {
       const bool upper = rule.z()[j] > 0;
       const double beyond = upper ? above.front() : 1 - above.back();
-      const double ratio = rule.z().front() / rule.z()[j], left = beyond * ratio * ratio;
+      const double ratio = samples.heavy_tails ? rule.z().front() / rule.z()[j] : 0;
+      const double left = beyond * ratio * ratio;
       target.above[k * count + j] = static_cast<float>(upper ? left : 1 - left);
     }
     target.spread += counts.scale / static_cast<double>(directions.size());
@@ -142,8 +144,7 @@ void set_target(const TargetSamples& samples, const ArcDirections& directions, c
 }
 
 ArcPoint point_of_frame(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix) {
-  const Eigen::Vector3d roughness(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
-  return {frame, frame_matrix * roughness.asDiagonal(), roughness};
+  return {frame, frame_matrix * frame.widths.asDiagonal(), frame.widths};
 }
 
 double arc_loss(const ArcPoint& point, const ArcView& view, ArcWorkspace& workspace) {

@@ -27,10 +27,9 @@ constexpr double smoothing_share = 0.01;
 
 // Of the squared entries of column c of P - P0; see prior_spread.
 double prior_strength(const LobeFrame& frame, double spread, int column, double weight) {
-  const double roughness[3] = {frame.lobe.alpha_x, frame.lobe.alpha_y, 1};
-  const double width = std::max(roughness[0] * frame.first_order.col(0).norm(),
-                                roughness[1] * frame.first_order.col(1).norm());
-  const double wide = spread / prior_spread, relative = roughness[column] / width;
+  const double width = std::max(frame.widths[0] * frame.first_order.col(0).norm(),
+                                frame.widths[1] * frame.first_order.col(1).norm());
+  const double wide = spread / prior_spread, relative = frame.widths[column] / width;
   return weight * spread / (1 + wide * wide) * relative * relative;
 }
 
@@ -123,9 +122,8 @@ constexpr double short_column_share = 0.005, most_condition = 5e6;
 
 void lengthen_vanishing_columns(const LobeFrame& frame, Place& place) {
   Eigen::Matrix3d& p = place.p;
-  const Eigen::Vector3d roughness(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
   const Eigen::Vector3d singular =
-      Eigen::JacobiSVD<Eigen::Matrix3d>(p * roughness.asDiagonal()).singularValues();
+      Eigen::JacobiSVD<Eigen::Matrix3d>(p * frame.widths.asDiagonal()).singularValues();
   const double excess = singular[0] / singular[2] / most_condition;
   if (!(excess > 1))
     return;

@@ -396,7 +396,7 @@ class GaussNewtonSolver::Fit {
   }
   // Of the wider of its two columns.
   double width(const Eigen::Matrix3d& p) const {
-    return std::max(frame_.lobe.alpha_x * p.col(0).norm(), frame_.lobe.alpha_y * p.col(1).norm()) /
+    return std::max(frame_.widths.x() * p.col(0).norm(), frame_.widths.y() * p.col(1).norm()) /
            p.col(2).norm();
   }
 

@@ -9,18 +9,20 @@
 namespace ltc {
 
 LobeFrame::LobeFrame(const Lobe& lobe)
-    : lobe(lobe), omega_v(lobe.omega_v()), rotation(mirror_rotation(omega_v)) {
+    : lobe(lobe),
+      omega_v(lobe.omega_v()),
+      rotation(lobe.model->frame(lobe)),
+      widths(lobe.model->widths(lobe)) {
   first_order = rotation.transpose() * lobe.model->first_order(lobe);
   first_order.col(2) = Eigen::Vector3d::UnitZ();  // exactly, by the definition of Q
 }
 
 Eigen::Matrix3d LobeFrame::to_matrix(const Eigen::Matrix3d& frame_matrix) const {
-  return rotation * frame_matrix * Eigen::Vector3d(lobe.alpha_x, lobe.alpha_y, 1).asDiagonal();
+  return rotation * frame_matrix * widths.asDiagonal();
 }
 
 Eigen::Matrix3d LobeFrame::from_matrix(const Eigen::Matrix3d& matrix) const {
-  return rotation.transpose() * matrix *
-         Eigen::Vector3d(1 / lobe.alpha_x, 1 / lobe.alpha_y, 1).asDiagonal();
+  return rotation.transpose() * matrix * widths.cwiseInverse().asDiagonal();
 }
 
 FreeEntries free_entries(const Lobe& lobe) {

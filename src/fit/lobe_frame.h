@@ -8,7 +8,8 @@
 // In these variables every lobe looks alike: to first order in the slopes P is
 //     P0 = Q^T [ (2vz, 0, 2vx) | (0, 2vz, 2vy) | m ],
 // whose third column is e_z (see first_order_start), and directions are expressed by their offset
-// from m, g = Q^T omega - e_z, which keeps its relative precision however narrow the lobe is.
+// from m, g = Q^T omega - e_z, which keeps its relative precision however narrow the lobe is. A
+// model whose lobes are not about the mirror direction gives Q and A of its own (lobe_model.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -27,6 +28,7 @@ struct LobeFrame {
   Lobe lobe;
   Eigen::Vector3d omega_v;
   Eigen::Matrix3d rotation;     // Q
+  Eigen::Vector3d widths;       // A's diagonal
   Eigen::Matrix3d first_order;  // P0
 };
 

@@ -339,9 +339,8 @@ void evaluate(const ModelPoint& point, const FoldedColumn* fold, ModelWorkspace&
     p[i] = static_cast<float>(point.frame_matrix(i / 3, i % 3));
   const Eigen::Vector3f q = fold ? fold->q.cast<float>().eval() : Eigen::Vector3f::Zero();
   kernels::transform_samples(
-      {p, static_cast<float>(point.frame.lobe.alpha_x),
-       static_cast<float>(point.frame.lobe.alpha_y), fold ? q.data() : nullptr,
-       fold ? fold->u.data() : nullptr},
+      {p, static_cast<float>(point.frame.widths.x()), static_cast<float>(point.frame.widths.y()),
+       fold ? q.data() : nullptr, fold ? fold->u.data() : nullptr},
       {cosines.x.data(), cosines.y.data(), cosines.z.data(), count},
       {workspace.gx.data(), workspace.gy.data(), workspace.gz.data(), workspace.rows.data()});
   const Counts& counts = counts_of(point, workspace);

@@ -80,7 +80,7 @@ class Descender {
 
   FitResult run(const std::vector<Eigen::Matrix3d>& starts, std::vector<FitStep>* trace) {
     const Clock::time_point begin = Clock::now();
-    const double width = std::max(frame_.lobe.alpha_x, frame_.lobe.alpha_y);
+    const double width = std::max(frame_.widths.x(), frame_.widths.y());
     const Variables variables{settings_.scaled_variables, width, frame_};
     const Eigen::Matrix3d start = starts.empty() ? own_start() : starts.front();
     Eigen::Matrix3d w = variables.from_frame_direction(frame_.rotation.transpose() * start);

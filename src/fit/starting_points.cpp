@@ -51,8 +51,8 @@ Eigen::Matrix3d repaired(const LobeFrame& frame, const Eigen::Matrix3d& matrix) 
 
 Eigen::Matrix3d first_order_start(const LobeFrame& frame) {
   Eigen::Matrix3d p = frame.first_order;
-  const double width_x = frame.lobe.alpha_x * p.col(0).norm();
-  const double width_y = frame.lobe.alpha_y * p.col(1).norm();
+  const double width_x = frame.widths.x() * p.col(0).norm();
+  const double width_y = frame.widths.y() * p.col(1).norm();
   if (width_y < thinnest_start * width_x)
     p.col(1) *= thinnest_start * width_x / width_y;
   else if (width_x < thinnest_start * width_y)
@@ -80,14 +80,13 @@ Eigen::Matrix3d moment_start(const LobeFrame& frame, const TargetSamples& target
     m.col(1) = -m.col(1);
   // Of all rotations about z, which leave the lobe as it is, the one nearest to the first-order
   // matrix: only so do the symmetry zeros fall on their places.
-  const Eigen::Vector3d roughness(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
-  const Eigen::Matrix3d first_order = frame.first_order * roughness.asDiagonal();
+  const Eigen::Matrix3d first_order = frame.first_order * frame.widths.asDiagonal();
   const Eigen::Matrix2d overlap = m.leftCols<2>().transpose() * first_order.leftCols<2>();
   const double angle = std::atan2(overlap(1, 0) - overlap(0, 1), overlap(0, 0) + overlap(1, 1));
   Eigen::Matrix2d turn;
   turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   m.leftCols<2>() = (m.leftCols<2>() * turn).eval();
-  return admissible(m * roughness.cwiseInverse().asDiagonal(), free_entries(frame.lobe));
+  return admissible(m * frame.widths.cwiseInverse().asDiagonal(), free_entries(frame.lobe));
 }
 
 Eigen::Matrix3d identity_start(const LobeFrame& frame) {

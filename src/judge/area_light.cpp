@@ -37,7 +37,7 @@ SampleLattice random_lattice(const AreaLightSettings& settings, std::uint64_t in
   return SampleLattice(checked(settings).samples / 2, azimuth_shift, random.uniform());
 }
 
-// Weighted mean of the light directions, relative to the mirror direction.
+// Weighted mean of the light directions, relative to the axis.
 Eigen::Vector3d mean_offset(const WeightedSamples& samples) {
   return (samples.offset.colwise() * samples.weight).colwise().sum().matrix().transpose() /
          samples.weight.sum();
@@ -97,7 +97,7 @@ double weight_inside(const WeightedSamples& samples, const AreaLightJudge::Quad&
   std::array<Eigen::Vector3d, 4> normals = side_planes(quad);
   std::array<double, 4> bounds;
   for (std::size_t side = 0; side < 4; ++side)
-    bounds[side] = -normals[side].dot(samples.mirror);
+    bounds[side] = -normals[side].dot(samples.axis);
   const Eigen::Index count = samples.weight.size();
   const double* const x = samples.offset.data();
   const double* const y = x + count;
@@ -148,9 +148,9 @@ void AreaLightJudge::draw_quads(const LobeSampler& sampler, std::uint64_t draw) 
   while (quads_.size() < settings_.quads) {
     const auto [azimuth, height, acceptance, turn, size_u, size_v] = sequence.next();
     const LobeSample sample = sampler.sample(azimuth, height);
-    if (acceptance >= sample.weight)
+    if (acceptance * sampler.most_weight() >= sample.weight)
       continue;
-    const Eigen::Vector3d center = (sampler.mirror() + sample.offset).normalized();
+    const Eigen::Vector3d center = (sampler.axis() + sample.offset).normalized();
     const Eigen::Vector3d across = center.unitOrthogonal();
     const Eigen::Vector3d u =
         std::cos(full_turn * turn) * across + std::sin(full_turn * turn) * center.cross(across);

@@ -62,8 +62,7 @@ void HeldOutJudge::sort_target(const Eigen::Vector3f& direction, const hwy::Sort
 
 void HeldOutJudge::transform(const LobeFrame& frame, const LtcLobe& ltc, HorizonMode horizon,
                              Points& points) const {
-  const Eigen::Matrix3d p = frame.from_matrix(ltc.matrix) *
-                            Eigen::Vector3d(frame.lobe.alpha_x, frame.lobe.alpha_y, 1).asDiagonal();
+  const Eigen::Matrix3d p = frame.from_matrix(ltc.matrix) * frame.widths.asDiagonal();
   const double p00 = p(0, 0), p01 = p(0, 1), p02 = p(0, 2);
   const double p10 = p(1, 0), p11 = p(1, 1), p12 = p(1, 2);
   const double p20 = p(2, 0), p21 = p(2, 1), p22 = p(2, 2);

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "brdf/albedo.h"
+#include "brdf/lobe_model.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "export/consistency.h"
@@ -241,9 +242,10 @@ class Checks {
     const std::string name = "albedo range";
     if (!contents_.albedo)
       return not_checked(name, 0, not_in_file);
-    return judged(name, 0, present_, [&](std::size_t flat) {
+    const bool at_most_one = table_.grid.model->conserves_energy();
+    return judged(name, 0, present_, [&, at_most_one](std::size_t flat) {
       const double amplitude = table_.amplitude[flat], fresnel = table_.fresnel[flat];
-      return std::max({0.0, -fresnel, fresnel - amplitude, amplitude - 1});
+      return std::max({0.0, -fresnel, fresnel - amplitude, at_most_one ? amplitude - 1 : 0.0});
     });
   }
 

@@ -82,8 +82,7 @@ template <typename Scalar>
 Eigen::Matrix3d seen_in(Storage storage, const Eigen::Matrix3d& stored, const LobeFrame& frame,
                         InverseOrder order) {
   const bool scaled = storage != Storage::matrix, turned = is_in_mirror_frame(storage);
-  const Eigen::Vector3d scale = scaled ? scale_of_columns(storage, frame.lobe)
-                                       : Eigen::Vector3d(frame.lobe.alpha_x, frame.lobe.alpha_y, 1);
+  const Eigen::Vector3d scale = scaled ? scale_of_columns(storage, frame.lobe) : frame.widths;
   const Vector3<Scalar> roughness(rounded<Scalar>(scale.x()), rounded<Scalar>(scale.y()),
                                   Scalar(1));
   const Matrix3<Scalar> q = rounded<Scalar>(frame.rotation);

@@ -23,6 +23,7 @@
 #include "interpolate/between_fits.h"
 #include "pipeline/first_entries.h"
 #include "pipeline/post_process.h"
+#include "pipeline/require_model.h"
 #include "postprocess/normalise.h"
 #include "refine/refine_queries.h"
 #include "table/field_table.h"
@@ -431,6 +432,7 @@ Table generate_table(const Config& config, const RunContext& run, GenerateReport
 
 Table generate_table(const Config& config, const std::vector<bool>& needed, const RunContext& run,
                      GenerateReport* report, FitJournal* journal, const RefineContext& context) {
+  require_model(config);
   GenerateReport unread;
   GenerateReport& result = report ? *report : unread;
   auto lap = std::chrono::steady_clock::now();

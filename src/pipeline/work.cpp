@@ -11,6 +11,7 @@
 #include "core/ranks.h"
 #include "core/version.h"
 #include "export/table_file.h"
+#include "pipeline/require_model.h"
 #include "scene/coverage.h"
 #include "scene/query_ranges.h"
 #include "table/extend.h"
@@ -62,6 +63,7 @@ std::string told(const RunRequest& request, const Work& work) {
 Work plan_work(const RunRequest& request, Ranks* ranks) {
   Work work = planned(request);
   require_same(ranks, "program, config, scene or table to extend", told(request, work));
+  require_model(request.config);
   require_memory(request.config, work.to_fit, work.refinement(), ranks ? ranks->size_here() : 1);
   return work;
 }

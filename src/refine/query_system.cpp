@@ -25,7 +25,7 @@ FrameOfStored frame_of_stored(Storage storage, const LobeFrame& frame,
   if (storage != Storage::mirror_frame)
     left = frame.rotation.transpose();
   if (storage == Storage::matrix || storage == Storage::inverse)
-    right.diagonal() << 1 / frame.lobe.alpha_x, 1 / frame.lobe.alpha_y, 1;
+    right.diagonal() = frame.widths.cwiseInverse();
   if (storage != Storage::inverse)
     return {left * stored * right, left, right};
   // d(S^-1) = -S^-1 dS S^-1. The loss does not feel a factor, which is left out of what changes.

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/write_file.h"
-#include "export/file.h"
 
 namespace ltc {
 namespace {

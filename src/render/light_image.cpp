@@ -18,9 +18,9 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/read_file.h"
 #include "export/exr_header.h"
-#include "export/file.h"
 
 namespace ltc {
 namespace {

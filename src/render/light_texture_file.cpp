@@ -16,9 +16,9 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/version.h"
 #include "core/write_file.h"
-#include "export/file.h"
 #include "export/image_bytes.h"
 #include "export/ktx2.h"
 

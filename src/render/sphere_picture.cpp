@@ -91,12 +91,12 @@ double exposure_of(const SphereImages& images) {
   return largest > 0 ? brightest / largest : 1;
 }
 
-ColorScale difference_colors(const SphereImages& images) {
+ColorScale difference_colors(const SphereImages& images, const std::string& reference) {
   std::vector<double> magnitudes;
   for (std::size_t table = 0; table < images.ltc.size(); ++table)
     add_magnitudes(difference(images, table), images.coverage, magnitudes);
   const double bound = rounded_up(nearly_largest(std::move(magnitudes)));
-  return {Scale::linear(-bound, bound), &ColorMap::diverging(), "LTC − GGX"};
+  return {Scale::linear(-bound, bound), &ColorMap::diverging(), "LTC − " + reference};
 }
 
 class Painter {
@@ -145,7 +145,7 @@ class Painter {
                 {.size = font_, .horizontal = HorizontalAnchor::center, .bold = true}, side_);
   }
   void draw_heads(double baseline) {
-    head(left_of_reference(), baseline, "GGX, sampled");
+    head(left_of_reference(), baseline, content_.reference + ", sampled");
     for (std::size_t table = 0; table < content_.tables.size(); ++table) {
       head(left_of_table(table), baseline, content_.tables[table]);
       head(left_of_table(table) + side_ + gap * font_, baseline, "difference");
@@ -156,7 +156,7 @@ class Painter {
     const SphereRow& row = content_.rows[index];
     draw_label(label_of(row), top);
     const ColorScale grey{Scale::linear(0, 1), &greys()};
-    const ColorScale colors = difference_colors(row.images);
+    const ColorScale colors = difference_colors(row.images, content_.reference);
     const double exposure = exposure_of(row.images);
     const auto radiance = [&](double left, const picture::Field& field) {
       canvas_.image(as_seen(field, row.images.coverage, exposure), grey, {left, top, side_, side_});

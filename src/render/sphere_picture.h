@@ -24,6 +24,7 @@ struct SpherePicture {
   std::vector<std::string> tables;   // what their columns are called
   std::vector<SphereRow> rows;       // all images of one size
   ObjectShape shape = ObjectShape::sphere;
+  std::string reference = "GGX";  // what is sampled
 };
 
 // Radiance is shown in sRGB; a row's images share an exposure, which brings the brightest of GGX

@@ -279,23 +279,23 @@ Field lobe_density(const Lobe& lobe, const LobeWindow& window, std::size_t side)
          return Direction{sample.omega_l, sample.offset};
        },
        [&](const Direction& d) { return sampler->densities_at_offset(d.offset).sampling; }},
-      window, sampler->mirror(), side);
+      window, sampler->axis(), side);
 }
 
 Field ltc_density(const LtcLobe& shown, const Lobe& lobe, const LobeWindow& window,
                   std::size_t side) {
   if (!is_invertible(shown.matrix))
     return {side, side, std::vector<float>(side * side, no_value)};
-  const Eigen::Vector3d mirror = lobe.mirror();
+  const Eigen::Vector3d axis = lobe.model->frame(lobe).col(2);
   return with_lobe(shown, [&](const auto& ltc) {
     const auto density = [&](const Direction& d) { return ltc.density(d.omega); };
     return mean_density({density,
                          [&](std::size_t i, std::size_t count) {
                            const Eigen::Vector3d omega = sample_of(ltc, i, count);
-                           return Direction{omega, omega - mirror};
+                           return Direction{omega, omega - axis};
                          },
                          density},
-                        window, mirror, side);
+                        window, axis, side);
   });
 }
 

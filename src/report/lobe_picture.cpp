@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "brdf/lobe_model.h"
 #include "core/angle.h"
 #include "report/lobe_window_marks.h"
 
@@ -116,10 +117,11 @@ picture::PanelRow lobe_panels(const Lobe& lobe, const std::vector<NamedLobe>& be
   picture::PanelRow row;
   row.words = std::move(words);
   row.words.lines_below.push_back(window_words(window));
-  row.panels = {{"GGX", ggx, 0}};
+  const std::string model(lobe.model->label());
+  row.panels = {{model, ggx, 0}};
   for (std::size_t i = 0; i < fields.size(); ++i)
     row.panels.push_back({beside[i].name, fields[i], 0});
-  row.panels.push_back({beside.back().name + " − GGX", difference, 1});
+  row.panels.push_back({beside.back().name + " − " + model, difference, 1});
   row.scales = {{.scale = scale, .title = "density, 1/sr"},
                 {.scale = difference_scale(difference, scale),
                  .map = &picture::ColorMap::diverging(),

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brdf/lobe_model.h"
 #include "judge/comparison_summary.h"
 #include "report/table_map.h"
 
@@ -44,8 +45,9 @@ std::string row_text(const ComparisonRow& row) {
 picture::Words words_of(const Grid& grid, const std::vector<EntryComparison>& entries,
                         const std::string& name_a, const std::string& name_b) {
   picture::Words words;
-  words.title = "Loss to GGX, A over B";
-  words.subtitle = "Blue: A is nearer to GGX; red: B is nearer; grey: not in both tables";
+  const std::string model(grid.model->label());
+  words.title = "Loss to " + model + ", A over B";
+  words.subtitle = "Blue: A is nearer to " + model + "; red: B is nearer; grey: not in both tables";
   words.lines_below = {"A: " + name_a, "B: " + name_b};
   const std::vector<ComparisonRow> rows = summarize_rows(grid, entries);
   words.lines_below.push_back(row_text(rows[0]));

@@ -95,8 +95,7 @@ std::string tiles(const Validation& validation) {
               fmt::format("95 % below {}", number(quality.nodes.p95, 3))) +
          tile(fmt::format("{} of {}", passed, checked), "invariants hold",
               fmt::format("{} entries without values", quality.nodes_without_values)) +
-         "</div>\n<p class=\"faint\">Losses are shares of the lobe's spread: 0 is the GGX lobe "
-         "itself, "
+         "</div>\n<p class=\"faint\">Losses are shares of the lobe's spread: 0 is the lobe itself, "
          "1 as far off as a single direction. The floor is what an LTC fitted to the very lobe "
          "reaches: above it is what the table costs, the floor itself is what the family of LTCs "
          "costs. ± is the standard error of a mean over the queries.</p>\n";
@@ -168,7 +167,7 @@ std::string figures(const QualityReport& quality) {
   return "<h2>Quality</h2>\n" + html::table(table) +
          fmt::format(
              "<p>{} random queries.{} Errors under area lights are shares of the light that "
-             "the whole lobe reflects, over {} rectangles a query; GGX is sampled, with a "
+             "the whole lobe reflects, over {} rectangles a query; the BRDF is sampled, with a "
              "standard error of {:.1e} a rectangle.</p>\n",
              quality.queries.size(), left_out(quality), quality.settings.quads,
              quality.area_light_noise);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "brdf/lobe_model.h"
 #include "core/parallel.h"
 #include "judge/matrix_invariants.h"
 #include "render/missing_albedo.h"
@@ -205,9 +206,10 @@ NamedPicture sphere_picture(const Validation& validation, const PageSettings& se
   content.title = "Spheres under a rectangular light";
   content.tables = {"LTC"};
   content.caption = {
-      fmt::format("GGX by multiple importance sampling, {} samples a pixel; errors "
+      fmt::format("{} by multiple importance sampling, {} samples a pixel; errors "
                   "are in units of the light's radiance.",
-                  sphere.samples)};
+                  table.grid.model->label(), sphere.samples)};
+  content.reference = table.grid.model->label();
   for (const SphereMaterial& material :
        {SphereMaterial{0.05, 0.25, 1}, SphereMaterial{0.5, 0.02, 1}, SphereMaterial{0.5, 0.25, 1},
         SphereMaterial{0.5, 1, 1}})

@@ -3,8 +3,10 @@
 #include "report/viewer_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -51,6 +53,11 @@ std::string replaced(std::string text, std::string_view mark, std::string_view b
   if (at == std::string::npos)
     throw InputError(fmt::format("the viewer's page has no {}", mark));
   return text.replace(at, mark.size(), by);
+}
+std::string everywhere(std::string text, std::string_view mark, std::string_view by) {
+  for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += by.size())
+    text.replace(at, mark.size(), by);
+  return text;
 }
 
 // JSON within a page: no tag can begin in it.
@@ -140,20 +147,35 @@ Json colors_json(const picture::ColorMap& map) {
   return json;
 }
 
-Json shaders_json() {
+// Those that ggx.glsl knows, in the order of its numbers.
+constexpr std::array<std::string_view, 4> brdfs = {"ggx", "beckmann", "charlie",
+                                                   "charlie-ashikhmin"};
+
+Json shaders_json(const LobeModel& model) {
   Json json = Json::object();
   for (const std::string_view name : shaders)
     json[std::string(name.substr(0, name.find('.')))] = viewer_file(name);
+  const auto number = std::ranges::find(brdfs, model.name()) - brdfs.begin();
+  json["ggx"] =
+      replaced(json["ggx"], "const int BRDF = GGX;", fmt::format("const int BRDF = {};", number));
   return json;
 }
 
 void require_viewable(std::span<const ViewedTable> tables) {
   if (tables.empty() || tables.size() > 2)
     throw InputError(fmt::format("{} tables to view; expected 1 or 2", tables.size()));
-  for (const ViewedTable& viewed : tables)
-    if (const LobeModel& model = *viewed.table->grid.model; &model != &ggx())
-      throw InputError(fmt::format("{}: a table of the BRDF {}; expected one of ggx", viewed.name,
-                                   model.name()));
+  for (const ViewedTable& viewed : tables) {
+    const LobeModel* const model = viewed.table->grid.model;
+    if (std::ranges::find(brdfs, model->name()) == brdfs.end())
+      throw InputError(
+          fmt::format("{}: a table of the BRDF {}; expected one of {}, which the page "
+                      "samples beside it",
+                      viewed.name, model->name(), fmt::join(brdfs, ", ")));
+    if (model != tables.front().table->grid.model)
+      throw InputError(fmt::format("{}: a table of the BRDF {} beside one of {}; expected the same",
+                                   viewed.name, model->name(),
+                                   tables.front().table->grid.model->name()));
+  }
   for (const ViewedTable& viewed : tables)
     if (is_folded(*viewed.table) && viewed.table->creases.size() > 1)
       throw InputError(fmt::format("{}: folded lobes with {} pairs of creases; expected one pair",
@@ -180,13 +202,14 @@ std::string viewer_page(std::span<const ViewedTable> tables) {
   }
   data["diverging"] = colors_json(picture::ColorMap::diverging());
   data["viridis"] = colors_json(picture::ColorMap::viridis());
-  data["shaders"] = shaders_json();
+  data["shaders"] = shaders_json(*tables.front().table->grid.model);
   std::string page(viewer_file("page.html"));
   page = replaced(std::move(page), "@TITLE@", html::escaped(tables.front().name));
   page = replaced(std::move(page), "/*STYLE*/", viewer_file("style.css"));
   page = replaced(std::move(page), "<!--VALUES-->", payloads);
   page = replaced(std::move(page), "@DATA@", json_for_page(data));
-  return replaced(std::move(page), "/*SCRIPT*/", script());
+  page = replaced(std::move(page), "/*SCRIPT*/", script());
+  return everywhere(std::move(page), "@BRDF@", tables.front().table->grid.model->label());
 }
 
 }  // namespace ltc

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "brdf/lobe_model.h"
 #include "core/angle.h"
+#include "core/error.h"
 #include "core/random.h"
 
 namespace ltc {
@@ -42,8 +44,8 @@ double random_phi(Random& random) {
 }  // namespace
 
 Lobe StressLobe::lobe() const {
-  return {alpha, lambda * alpha, radians_of_degrees(theta_degrees),
-          radians_of_degrees(phi_degrees)};
+  return {alpha, lambda * alpha, radians_of_degrees(theta_degrees), radians_of_degrees(phi_degrees),
+          model};
 }
 
 StressAxes stress_axes(StressDensity density) {
@@ -78,6 +80,32 @@ std::vector<StressLobe> random_lobes(std::size_t count, std::uint64_t seed) {
     lobes.push_back({alpha, lambda, theta, random_phi(random), false});
   }
   return lobes;
+}
+
+std::vector<StressLobe> lobes_of_model(const std::vector<StressLobe>& lobes,
+                                       const LobeModel& model) {
+  const auto serves = [&](const StressLobe& lobe) {
+    try {
+      model.require(lobe.lobe());
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  std::vector<StressLobe> served;
+  for (StressLobe lobe : lobes) {
+    lobe.model = &model;
+    if (serves(lobe)) {
+      served.push_back(lobe);
+      continue;
+    }
+    // Those of the grid stand there with every ratio, that of 1 among them.
+    const bool has_isotropic_twin = lobe.on_grid;
+    lobe.lambda = 1;
+    if (!has_isotropic_twin && serves(lobe))
+      served.push_back(lobe);
+  }
+  return served;
 }
 
 }  // namespace ltc

@@ -16,6 +16,7 @@ struct StressLobe {
   double alpha = 1, lambda = 1;
   double theta_degrees = 0, phi_degrees = 0;
   bool on_grid = false;  // of stress_grid, else drawn at random
+  const LobeModel* model = &ggx();
 
   // Bit for bit what `ltcfit fit` makes of the same numbers.
   Lobe lobe() const;
@@ -44,5 +45,10 @@ std::vector<StressLobe> grid_lobes(const StressAxes& axes);
 // Lobes of the same ranges: alpha and lambda uniform in the logarithm, theta uniform or crowded
 // towards 90 degrees, phi uniform or crowded towards 0 or 90 degrees.
 std::vector<StressLobe> random_lobes(std::size_t count, std::uint64_t seed);
+
+// Those that a model has, with that model: lobes of two roughnesses that it refuses are replaced by
+// the one of the larger, if that is none of them already; others that it refuses are left out.
+std::vector<StressLobe> lobes_of_model(const std::vector<StressLobe>& lobes,
+                                       const LobeModel& model);
 
 }  // namespace ltc

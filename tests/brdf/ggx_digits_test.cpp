@@ -132,7 +132,7 @@ TEST(GgxDigits, OffsetsFromTheMirrorDirection) {
         return difference.norm() / expected.norm();
       };
       careful.add(error(sampler.reflect(h).offset));
-      naive.add(error(2 * v.dot(h) * h - v - sampler.mirror()));
+      naive.add(error(2 * v.dot(h) * h - v - sampler.axis()));
     }
   }
   // Some thirty roundings. Measured: 10.

@@ -122,7 +122,7 @@ TEST(Ggx, PeakOfASharpLobeIsFiniteAndRight) {
     const double expected =
         1 / (kPi * lobe.alpha_x * lobe.alpha_y) / (1 + 2 * lambda) / (4 * sampler.omega_v().z());
     EXPECT_NEAR(sampler.brdf_cosine_at_offset(Eigen::Vector3d::Zero()), expected, 1e-12 * expected);
-    EXPECT_NEAR(sampler.brdf_cosine(sampler.mirror()), expected, 1e-12 * expected);
+    EXPECT_NEAR(sampler.brdf_cosine(sampler.axis()), expected, 1e-12 * expected);
   }
 }
 
@@ -162,7 +162,7 @@ TEST(Ggx, PlainReflectionWouldLoseDigits) {
   const GgxSampler sampler({1e-6, 1e-6, 1.2, 0.7});
   const Eigen::Vector3d h = visible_normal(sampler, 0.3, 0.4);
   const Eigen::Vector3d v = sampler.omega_v();
-  const Eigen::Vector3d careless = 2 * v.dot(h) * h - v - sampler.mirror();
+  const Eigen::Vector3d careless = 2 * v.dot(h) * h - v - sampler.axis();
   const Eigen::Vector3d careful = sampler.reflect(h).offset;
   EXPECT_GT((careless - careful).norm(), 1e-12 * careful.norm());
   EXPECT_LT((plain_offset(v, h).cast<double>() - careful).norm(), 1e-6 * careful.norm());

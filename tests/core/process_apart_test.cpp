@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/hdf5_guard.h"
 #include "core/platform.h"
-#include "export/hdf5_guard.h"
 #include "support/refusal.h"
 #include "support/sanitizer.h"
 #include "support/temporary_directory.h"

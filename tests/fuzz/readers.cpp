@@ -13,7 +13,7 @@
 #include "export/checkpoint.h"
 #include "export/consistency.h"
 #include "export/dds.h"
-#include "export/hdf5_guard.h"
+#include "export/hdf5.h"
 #include "export/ktx2.h"
 #include "export/number_text.h"
 #include "export/octave.h"
@@ -123,9 +123,9 @@ void read_texture_bytes(const fs::path& folder, std::string_view bytes) {
 
 // JSON, Octave's or a program: the first byte says which.
 void read_number_text(const fs::path& folder, std::string_view text) {
-  const auto images = text.starts_with('{')   ? decode_json(text, folder / "numbers.json")
+  const auto images = text.starts_with('{')    ? decode_json(text, folder / "numbers.json")
                       : text.starts_with("# ") ? decode_octave(text, folder / "numbers.mat")
-                                              : decode_number_lists(text, folder / "numbers.js");
+                                               : decode_number_lists(text, folder / "numbers.js");
   if (images.empty())
     throw std::logic_error("a file of nothing");
   for (const Image& image : images)

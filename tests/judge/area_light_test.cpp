@@ -107,7 +107,7 @@ TEST(AreaLight, TheStatedErrorOfTheSamplesIsTheirs) {
   for (std::size_t quad = 0; quad < few.quads; ++quad) {
     double inside = 0;
     for (Eigen::Index i = 0; i < samples.weight.size(); ++i)
-      if (covers(coarse.quads()[quad], samples.mirror + samples.offset.row(i).matrix().transpose()))
+      if (covers(coarse.quads()[quad], samples.axis + samples.offset.row(i).matrix().transpose()))
         inside += samples.weight[i];
     const double deviation = coarse.fractions()[quad] - inside / samples.weight.sum();
     squares += deviation * deviation;

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <functional>
 
-#include "table/table.h"
-
 namespace ltc {
 
 // Calls `read`, which reads the file by the library, in a copy of this process first, with bounds
@@ -15,9 +13,5 @@ namespace ltc {
 // their end here too. Throws what `read` threw there if that was InputError or IoError, and
 // InputError if the copy crashed or went beyond its bounds.
 void require_harmless(const std::filesystem::path& path, const std::function<void()>& read);
-
-// A table's .h5 read without the guard. For fuzzers, which learn nothing of what happens in another
-// process.
-Table read_hdf5_unguarded(const std::filesystem::path& path);
 
 }  // namespace ltc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-#include "export/file.h"
+#include "core/file.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-#include "export/hdf5_guard.h"
+#include "core/hdf5_guard.h"
 
 #include <optional>
 #include <string>
@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/platform.h"
-#include "export/file.h"
 
 namespace ltc {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-#include "export/hdf5_file.h"
+#include "core/hdf5_file.h"
 
 #include <hdf5.h>
 
@@ -16,8 +16,8 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "export/file.h"
-#include "export/hdf5_heap.h"
+#include "core/file.h"
+#include "core/hdf5_heap.h"
 
 namespace ltc {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// What readers and writers of table files share: whether a file can be read, one-line messages.
+// What readers and writers of files share: whether a file can be read, one-line messages.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-#include "export/hdf5_heap.h"
+#include "core/hdf5_heap.h"
 
 #include <algorithm>
 #include <cstdint>
