@@ -19,7 +19,7 @@ struct RenderReport {
   double light_size = 1;  // times that of figure 14
   bool two_sided = false;
   std::size_t samples = 0, size = 0;
-  std::string_view horizon;  // "clipped", "scaled"
+  std::string_view horizon;       // "clipped", "scaled"
   std::string reference = "GGX";  // what is sampled, LobeModel::label
   // One a material.
   std::vector<SphereRow> rows;

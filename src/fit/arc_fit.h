@@ -3,9 +3,9 @@
 // The Gauss-Newton fit of a lobe by arcs (arc_model.h): from its moment start with few directions
 // and thresholds, then with as many as the settings say.
 //
-// For lobes that are neither very sharp nor very thin: of sharp ones, what an LTC misses is less than the
-// noise of the samples that the lobe's distribution is counted on, and thin ones have several
-// minima, which the quantiles of samples tell apart better.
+// For lobes that are neither very sharp nor very thin: of sharp ones, what an LTC misses is less
+// than the noise of the samples that the lobe's distribution is counted on, and thin ones have
+// several minima, which the quantiles of samples tell apart better.
 #pragma once
 
 #include <chrono>

@@ -78,8 +78,8 @@ TEST(RefineKernels, TransposedProductsAreThoseOfEigen) {
   const Eigen::VectorXf weights = Eigen::VectorXf::Random(2053);
   kernels::multiply_weighted({a.data(), 2053, 7}, weights.data(), {b.data(), 2053, 5},
                              result.data(), 9);
-  const Eigen::MatrixXd weighted = a.cast<double>().transpose() *
-                                   weights.cast<double>().asDiagonal() * b.cast<double>();
+  const Eigen::MatrixXd weighted =
+      a.cast<double>().transpose() * weights.cast<double>().asDiagonal() * b.cast<double>();
   EXPECT_LT((result.topRows(7) - weighted).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_EQ(result(7, 0), 42);
 }
@@ -89,8 +89,8 @@ TEST(RefineKernels, TransposedProductsOfDoublesAreThoseOfEigen) {
   Eigen::MatrixXd result(7, 5);
   // Some rows of the columns.
   kernels::multiply_transposed(kernels::ColumnsOf<double>{a.data() + 3, 589, 7, 600},
-                               kernels::ColumnsOf<double>{b.data() + 5, 589, 5, 600},
-                               result.data(), 7);
+                               kernels::ColumnsOf<double>{b.data() + 5, 589, 5, 600}, result.data(),
+                               7);
   const Eigen::MatrixXd expected = a.middleRows(3, 589).transpose() * b.middleRows(5, 589);
   EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
