@@ -66,7 +66,8 @@ struct Tables {
 constexpr double least_alpha = 1e-4;
 
 // Those of figure 14 of Aakash et al. 2022, unless others are asked for.
-std::vector<SphereMaterial> materials_of(const Arguments& arguments) {
+std::vector<SphereMaterial> materials_of(const Arguments& arguments, const Tables& tables) {
+  const Grid& grid = tables.tables.front().grid;
   const double f0 = arguments.f0;
   std::vector<SphereMaterial> materials;
   const auto add = [&](const LobeRoughness& roughness) {
@@ -76,9 +77,9 @@ std::vector<SphereMaterial> materials_of(const Arguments& arguments) {
     add(roughness_of(arguments.roughness, least_alpha));
   for (const std::string& text : arguments.materials)
     add(parse_roughness("--material", text, least_alpha));
-  if (!materials.empty())
-    return materials;
-  return {{0.05, 0.25, f0}, {0.5, 0.02, f0}, {0.5, 0.25, f0}, {0.5, 1.0, f0}};
+  for (const SphereMaterial& material : materials)
+    require_material(material, *grid.model, grid.alpha_min);
+  return materials.empty() ? usual_materials(*grid.model, f0) : materials;
 }
 
 Tables load_tables(const Arguments& arguments) {
@@ -239,8 +240,8 @@ SpherePicture picture_of(const Arguments& arguments, const RenderReport& report)
 void render(const Arguments& arguments, Files& files) {
   ProgressDisplay progress;
   const StopOnInterrupt stop_on_interrupt(progress);
-  const std::vector<SphereMaterial> materials = materials_of(arguments);
   const Tables tables = load_tables(arguments);
+  const std::vector<SphereMaterial> materials = materials_of(arguments, tables);
   const Destination destination = destination_of(arguments.output, arguments.settings.scene.shape);
   if (arguments.light.has_image())
     files.read_alone("--light", arguments.light.kind);

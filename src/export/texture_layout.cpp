@@ -19,13 +19,16 @@
 namespace ltc {
 namespace {
 
+// Right readings of published tables are at 0.05 to 0.12, wrong ones at 0.5 and more.
+constexpr double farthest_mean = 0.3;
+
 // Mean distance of the lobes from what they should about be, at nodes of middling roughness that
 // are not grazing: of their own directions, those of the cosine's normal, from the mirror's, and of
 // the logarithms of their widths, the square root of what det M is of a unit third column, from
 // those of first order. Some tenths where the table is read aright.
 double mean_distance(const Table& table) {
   if (!table.grid.model->about_mirror())
-    return 0;  // nothing to judge by
+    return farthest_mean;  // nothing to judge by: the first layout that is listed
   double sum = 0;
   int count = 0;
   for (std::size_t flat = 0; flat < table.grid.size(); ++flat) {
@@ -42,11 +45,8 @@ double mean_distance(const Table& table) {
     sum += std::isfinite(distance) ? distance : std::numbers::pi;
     ++count;
   }
-  return count ? sum / count : 0;  // likewise
+  return count ? sum / count : 0;  // nothing to judge by
 }
-
-// Right readings of published tables are at 0.05 to 0.12, wrong ones at 0.5 and more.
-constexpr double farthest_mean = 0.3;
 
 // ---- Anisotropic: the texels of the OpenEXR textures ----
 

@@ -10,8 +10,7 @@
 namespace ltc {
 namespace {
 
-// The larger roughness (or width, of lobes not about the mirror direction) of the sharpest lobes
-// that are fitted by arcs, and the smaller over the
+// The larger roughness of the sharpest lobes that are fitted by arcs, and the smaller over the
 // larger one of the thinnest. Sharper and thinner ones than a coarse grid's first nodes are most of
 // a fine grid's fits, and a fit on samples takes six times as long.
 constexpr double least_alpha = 0.05, least_ratio = 0.05;
@@ -61,7 +60,7 @@ ArcFit::ArcFit(const GaussNewtonSettings& settings)
 }
 
 bool ArcFit::takes(const LobeFrame& frame) {
-  const double x = frame.widths.x(), y = frame.widths.y();
+  const double x = frame.lobe.alpha_x, y = frame.lobe.alpha_y;
   return !is_extreme(frame) && std::max(x, y) >= least_alpha &&
          std::min(x, y) >= least_ratio * std::max(x, y);
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "align/align.h"
+#include "brdf/lobe_model.h"
 #include "core/error.h"
 #include "fit/lobe_frame.h"
 #include "fit/starting_points.h"
@@ -114,6 +115,7 @@ LobeFit fit_table_entry(const Config& config, const std::vector<bool>& needed, s
 
 LobeFit fit_lobe(const Config& config, const Lobe& lobe, std::uint64_t seed,
                  const std::optional<Eigen::Matrix3d>& start, const RunContext& run) {
+  lobe.model->require(lobe);
   FitRequest request;
   request.lobe = lobe;
   request.seed = seed;

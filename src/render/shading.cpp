@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "brdf/lobe_model.h"
+#include "core/error.h"
 #include "ltc/disk.h"
 #include "ltc/line.h"
 #include "ltc/ltsd.h"
@@ -206,6 +207,30 @@ double folded_share(const FoldedCosine& lobe, const Light& light) {
 }
 
 }  // namespace
+
+std::vector<SphereMaterial> usual_materials(const LobeModel& model, double f0) {
+  const auto served = [&](std::vector<SphereMaterial> materials) {
+    std::erase_if(materials, [&](const SphereMaterial& material) {
+      try {
+        require_material(material, model, 0);
+        return false;
+      } catch (const InputError&) {
+        return true;
+      }
+    });
+    return materials;
+  };
+  const std::vector<SphereMaterial> anisotropic =
+      served({{0.05, 0.25, f0}, {0.5, 0.02, f0}, {0.5, 0.25, f0}, {0.5, 1.0, f0}});
+  return anisotropic.empty()
+             ? served({{0.02, 0.02, f0}, {0.1, 0.1, f0}, {0.3, 0.3, f0}, {1.0, 1.0, f0}})
+             : anisotropic;
+}
+
+void require_material(const SphereMaterial& material, const LobeModel& model, double alpha_min) {
+  const auto raised = [&](double alpha) { return std::max(alpha, alpha_min); };
+  model.require({raised(material.alpha_x), raised(material.alpha_y), 0, 0, &model});
+}
 
 double ltc_share(const LtcLobe& ltc, const Light& light) {
   if (!is_seen(light))

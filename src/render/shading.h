@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "brdf/lattice.h"
 #include "ltc/folded.h"
@@ -21,6 +22,12 @@ struct SphereMaterial {
 
   bool operator==(const SphereMaterial&) const = default;
 };
+
+// The four of figure 14 of Aakash et al. 2022; of a BRDF that has no such lobes, as sheen has not,
+// isotropic ones that it has.
+std::vector<SphereMaterial> usual_materials(const LobeModel& model, double f0 = 1);
+// Throws InputError for one that the BRDF does not have, roughnesses raised to `alpha_min`.
+void require_material(const SphereMaterial& material, const LobeModel& model, double alpha_min);
 
 // The integral of a clamped cosine's transform by M (ltc/ltsd.h) over what emits to the origin: of
 // polygons by equation 11 of Heitz et al. 2016, of disks and spheres by ltc/disk.h, of lines by

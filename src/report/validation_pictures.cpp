@@ -210,9 +210,7 @@ NamedPicture sphere_picture(const Validation& validation, const PageSettings& se
                   "are in units of the light's radiance.",
                   table.grid.model->label(), sphere.samples)};
   content.reference = table.grid.model->label();
-  for (const SphereMaterial& material :
-       {SphereMaterial{0.05, 0.25, 1}, SphereMaterial{0.5, 0.02, 1}, SphereMaterial{0.5, 0.25, 1},
-        SphereMaterial{0.5, 1, 1}})
+  for (const SphereMaterial& material : usual_materials(*table.grid.model))
     content.rows.push_back(
         {material,
          render_sphere({&pointer, 1}, material, sphere,
