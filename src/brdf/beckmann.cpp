@@ -7,6 +7,8 @@
 #include <numbers>
 #include <ranges>
 
+#include "brdf/gauss_rule.h"
+
 namespace ltc {
 namespace {
 
@@ -54,17 +56,13 @@ class VisibleMass {
   static constexpr double far = 1e3;
 
   double near_least(double width) const {
-    constexpr std::array<double, 4> place{0.1834346424956498, 0.5255324099163290,
-                                          0.7966664774136267, 0.9602898564975363};
-    constexpr std::array<double, 4> weight{0.3626837833783620, 0.3137066458778873,
-                                           0.2223810344533745, 0.1012285362903763};
+    static const GaussRule rule(8);
     double sum = 0;
-    for (std::size_t i = 0; i < place.size(); ++i)
-      for (const double side : {-1.0, 1.0}) {
-        const double from_least = width / 2 * (1 + side * place[i]);
-        sum += weight[i] * s_ * from_least * std::exp(-square(least_ + from_least));
-      }
-    return sum * width / 2 * inv_sqrt_pi;
+    for (std::size_t i = 0; i < rule.size(); ++i) {
+      const double from_least = width * rule.place[i];
+      sum += rule.weight[i] * s_ * from_least * std::exp(-square(least_ + from_least));
+    }
+    return sum * width * inv_sqrt_pi;
   }
 
   double s_, c_, least_, c_lambda_;

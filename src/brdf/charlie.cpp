@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "brdf/gauss_rule.h"
 #include "core/error.h"
 
 namespace ltc {
@@ -112,39 +113,13 @@ LobeSample CharlieSampler::sample(double cos_azimuth, double sin_azimuth, double
 
 namespace {
 
-// Places on [0, 1] and weights of Gauss's rule with so many points, by Newton's steps from
-// Chebyshev's.
-struct GaussRule {
-  explicit GaussRule(std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto n = static_cast<double>(count);
-      double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5)),
-             slope = 1;
-      for (int step = 0; step < 8; ++step) {
-        double last = 1, value = x;  // Legendre's polynomials of two degrees
-        for (std::size_t k = 2; k <= count; ++k) {
-          const auto degree = static_cast<double>(k);
-          const double next = ((2 * degree - 1) * x * value - (degree - 1) * last) / degree;
-          last = value;
-          value = next;
-        }
-        slope = n * (x * value - last) / (x * x - 1);
-        x -= value / slope;
-      }
-      place.push_back((1 + x) / 2);
-      weight.push_back(1 / ((1 - x * x) * slope * slope));
-    }
-  }
-  std::vector<double> place, weight;
-};
-
 // With about half as many directions as `points`, twice as many of them along the azimuth's half
 // turn as along the height.
 Albedo integrate_sheen(const CharlieSampler& sampler, std::size_t points) {
   const auto heights = static_cast<std::size_t>(std::sqrt(static_cast<double>(points)) / 2) + 2;
   const std::size_t azimuths = 2 * heights;
   static thread_local GaussRule rule(heights);
-  if (rule.place.size() != heights)
+  if (rule.size() != heights)
     rule = GaussRule(heights);
   const double turn = std::atan2(sampler.omega_v().y(), sampler.omega_v().x());
   Albedo sum;

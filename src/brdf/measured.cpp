@@ -11,6 +11,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "brdf/gauss_rule.h"
 #include "brdf/light_cells.h"
 #include "brdf/measured_file.h"
 #include "core/error.h"
@@ -136,14 +137,32 @@ class MeasuredSampler final : public LobeSampler {
   }
   double most_weight() const override { return cells_.total() * cells_.steepest(); }
 
+  // By Gauss's rule with so many points along both sides of every cell, within which the BRDF has
+  // no edges.
+  Albedo albedo(std::size_t points_a_side) const {
+    const GaussRule rule(points_a_side);
+    Albedo sum;
+    for (std::size_t i = 0; i + 1 < cells_.heights().size(); ++i)
+      for (const auto& [down, of_height] :
+           spots(rule, cells_.heights()[i + 1], cells_.heights()[i]))
+        for (std::size_t j = 0; j + 1 < cells_.azimuths().size(); ++j)
+          for (const auto& [azimuth, of_azimuth] :
+               spots(rule, cells_.azimuths()[j], cells_.azimuths()[j + 1])) {
+            const LightCells::Spot spot{i, j, down, azimuth};
+            const double value = value_at(spot) * down * of_height * of_azimuth;
+            const Eigen::Vector3d half = omega_v() + direction(spot);
+            sum.amplitude += value;
+            sum.fresnel += value * std::pow(1 - omega_v().dot(half) / half.norm(), 5);
+          }
+    return sum;
+  }
+
   using LobeSampler::sample;
   LobeSample sample(double cos_azimuth, double sin_azimuth, double u_height) const override {
     const LightCells::Spot spot = cells_.draw(cos_azimuth, sin_azimuth, u_height);
-    const double sine = std::sqrt((1 - spot.height) * (1 + spot.height));
     LobeSample sample;
-    sample.omega_l =
-        to_tangent({sine * std::cos(spot.azimuth), sine * std::sin(spot.azimuth), spot.height});
-    sample.offset << sample.omega_l.head<2>(), -sine * sine / (1 + spot.height);
+    sample.omega_l = direction(spot);
+    sample.offset << sample.omega_l.head<2>(), spot.height - 1;
     const Eigen::Vector3d half = omega_v() + sample.omega_l;
     sample.v_dot_h = omega_v().dot(half) / half.norm();
     if (const double density = cells_.per_measure(spot); spot.height > 0 && density > 0)
@@ -152,6 +171,20 @@ class MeasuredSampler final : public LobeSampler {
   }
 
  private:
+  // Places between two ends, and their shares of the distance.
+  static std::vector<std::pair<double, double>> spots(const GaussRule& rule, double first,
+                                                      double last) {
+    std::vector<std::pair<double, double>> result;
+    for (std::size_t i = 0; i < rule.size(); ++i)
+      result.emplace_back(first + rule.place[i] * (last - first), rule.weight[i] * (last - first));
+    return result;
+  }
+
+  Eigen::Vector3d direction(const LightCells::Spot& spot) const {
+    const double sine = std::sqrt((1 - spot.height) * (1 + spot.height));
+    return to_tangent({sine * std::cos(spot.azimuth), sine * std::sin(spot.azimuth), spot.height});
+  }
+
   // From the file's frame, and into it.
   Eigen::Vector3d to_tangent(const Eigen::Vector3d& there) const {
     if (turns_)
@@ -196,6 +229,11 @@ class MeasuredModel final : public LobeModel {
   // Beyond the axes as at their ends: pictures and judges look a little further than tables reach.
   std::unique_ptr<LobeSampler> sampler(const Lobe& lobe) const override {
     return std::make_unique<MeasuredSampler>(lobe, brdf());
+  }
+
+  // A finer rule takes more points of each cell.
+  Albedo albedo(const Lobe& lobe, const AlbedoRule& rule) const override {
+    return MeasuredSampler(lobe, brdf()).albedo(rule.size() > AlbedoRule::default_points ? 4 : 3);
   }
 
   // Nothing is known of where the lobe will be.

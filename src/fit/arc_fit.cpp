@@ -14,6 +14,9 @@ namespace {
 // larger one of the thinnest. Sharper and thinner ones than a coarse grid's first nodes are most of
 // a fine grid's fits, and a fit on samples takes six times as long.
 constexpr double least_alpha = 0.05, least_ratio = 0.05;
+// Of sharp lobes the isotropic ones are those that an LTC comes nearest to: no threshold tells what
+// it misses of them.
+constexpr double most_ratio_of_sharp = 0.9;
 
 constexpr std::size_t coarse_samples = 1024, arc_nodes = 8;
 
@@ -61,8 +64,9 @@ ArcFit::ArcFit(const GaussNewtonSettings& settings)
 
 bool ArcFit::takes(const LobeFrame& frame) {
   const double x = frame.lobe.alpha_x, y = frame.lobe.alpha_y;
-  return !is_extreme(frame) && std::max(x, y) >= least_alpha &&
-         std::min(x, y) >= least_ratio * std::max(x, y);
+  const double larger = std::max(x, y), ratio = std::min(x, y) / larger;
+  return !is_extreme(frame) && larger >= least_alpha && ratio >= least_ratio &&
+         !(is_sharp(frame) && ratio > most_ratio_of_sharp);
 }
 
 Descent ArcFit::descend(const Level& level, const Request& request, const Eigen::Matrix3d& start,
