@@ -3,6 +3,7 @@
 #include "brdf/measured.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -303,26 +304,44 @@ void require_sound(const MeasuredBrdf& brdf, const std::string& source) {
         fmt::format("{}: {} elevations and {} azimuths of light; expected at least 2 "
                     "each",
                     source, brdf.theta_light.size(), brdf.phi_light.size()));
+  const auto require_only = [&](const std::vector<double>& axis, std::string_view name,
+                                double value) {
+    if (axis.size() == 1 && std::abs(axis[0] - value) > 1e-6)
+      throw InputError(
+          fmt::format("{}: the one value of {} is {}; expected {}, as of isotropic "
+                      "lobes, or more values",
+                      source, name, axis[0], value));
+  };
+  require_only(brdf.phi, "phi", 0);
+  require_only(brdf.lambda, "lambda", 1);
   const double first = brdf.phi_light.front(), last = brdf.phi_light.back();
   if (brdf.turns() ? first > 1e-6 || last < pi - 1e-6 : last - first > 2 * pi - 1e-6)
     throw InputError(fmt::format("{}: phi_light from {:.6g} to {:.6g}; expected {}", source, first,
                                  last,
                                  brdf.turns() ? "0 to pi, since phi has one value"
                                               : "less than a turn: its first value closes it"));
+  const auto indices_of = [&](std::size_t flat) {
+    const std::vector<std::size_t> shape = brdf.shape();
+    std::vector<std::size_t> indices(shape.size());
+    for (std::size_t axis = shape.size(); axis-- > 0; flat /= shape[axis])
+      indices[axis] = flat % shape[axis];
+    return indices;
+  };
   const std::size_t lobe = brdf.theta_light.size() * brdf.phi_light.size();
   for (std::size_t i = 0; i < brdf.values.size(); i += lobe) {
     bool any = false;
     for (std::size_t j = i; j < i + lobe; ++j) {
       if (!(brdf.values[j] >= 0 && std::isfinite(brdf.values[j])))
-        throw InputError(
-            fmt::format("{}: value {} of lobe {} is {}; expected finite ones, not "
-                        "negative",
-                        source, j - i, i / lobe, brdf.values[j]));
+        throw InputError(fmt::format(
+            "{}: values[{}] is {}; expected finite ones in single precision, not negative", source,
+            fmt::join(indices_of(j), ", "), brdf.values[j]));
       any = any || brdf.values[j] > 0;
     }
     if (!any)
-      throw InputError(fmt::format("{}: lobe {} reflects nothing; expected some value above 0",
-                                   source, i / lobe));
+      throw InputError(
+          fmt::format("{}: the lobe of values[{}] reflects nothing; expected some "
+                      "value above 0",
+                      source, fmt::join(indices_of(i), ", ")));
   }
 }
 

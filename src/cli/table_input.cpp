@@ -12,6 +12,7 @@
 #include "cli/output.h"
 #include "core/error.h"
 #include "export/table_file.h"
+#include "pipeline/require_model.h"
 
 namespace ltc::cli {
 
@@ -56,6 +57,12 @@ Table read_input(const std::string& file, const std::optional<ReadAs>& as, Folde
     throw InputError(fmt::format(
         "{}: its lobes are folded; expected a table or field of plain ones (docs/folded.md)",
         one_line(file)));
+  if (as && as->model)
+    try {
+      require_lobes(table.grid);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", one_line(file), error.what()));
+    }
   // A line that cannot be written is no reason to stop.
   const bool told = as && (as->axes || as->textures != TextureLayout::automatic);
   if (!told && !table.read_as.empty())
