@@ -7,7 +7,7 @@
 #include <numbers>
 #include <ranges>
 
-#include "brdf/gauss_rule.h"
+#include "core/gauss_rule.h"
 
 namespace ltc {
 namespace {
@@ -56,11 +56,11 @@ class VisibleMass {
   static constexpr double far = 1e3;
 
   double near_least(double width) const {
-    static const GaussRule rule(8);
+    static const std::vector<GaussNode> nodes = gauss_nodes_of_unit(8);
     double sum = 0;
-    for (std::size_t i = 0; i < rule.size(); ++i) {
-      const double from_least = width * rule.place[i];
-      sum += rule.weight[i] * s_ * from_least * std::exp(-square(least_ + from_least));
+    for (const GaussNode& node : nodes) {
+      const double from_least = width * node.place;
+      sum += node.weight * s_ * from_least * std::exp(-square(least_ + from_least));
     }
     return sum * width * inv_sqrt_pi;
   }
@@ -174,7 +174,6 @@ double BeckmannSampler::visible_slope(double normal_slope) const {
 }
 
 BeckmannSampler::SlopeMap BeckmannSampler::slope_map() const {
-  static_assert(SlopeMap::cells == 2 * last_knot && SlopeMap::cells_a_unit == knots_a_unit);
   SlopeMap map;
   map.along_x = along_x_;
   map.along_y = along_y_;

@@ -42,9 +42,12 @@ class BeckmannSampler final : public LobeSampler {
   LobeSample sample(double cos_azimuth, double sin_azimuth, double u_height) const override;
   void sample_all(const SampleLattice& lattice, WeightedSamples& samples) const override;
 
+  // Of the map below, evenly from -6 to 6.
+  static constexpr int knots_a_unit = 8, last_knot = 6 * knots_a_unit;
+
   // Of one sample's slopes and weight, what the kernels need of a lobe beside its directions.
   struct SlopeMap {
-    static constexpr int cells_a_unit = 8, cells = 12 * cells_a_unit;  // of X from -6 to 6
+    static constexpr int cells = 2 * last_knot;  // between the knots
     // Of each cell the coefficients of a polynomial in the place within it, power by power.
     std::array<std::array<float, cells>, 6> coefficients;
     double along_x, along_y;  // the azimuth of the stretched view
@@ -59,7 +62,6 @@ class BeckmannSampler final : public LobeSampler {
  private:
   // The map at a knot, and its derivatives times the knots' distance and its square.
   using Knot = std::array<double, 3>;
-  static constexpr int knots_a_unit = 8, last_knot = 6 * knots_a_unit;
 
   LobeDensities densities_of(const Eigen::Vector3d& half, const Eigen::Vector3d& omega_l) const;
   void tabulate();

@@ -81,9 +81,9 @@ class Samples {
     const Floats d;
     const hn::RebindToSigned<Floats> di;
     using Map = BeckmannSampler::SlopeMap;
-    const V place = hn::Clamp(
-        hn::MulAdd(normal_slope, hn::Set(d, Map::cells_a_unit), hn::Set(d, Map::cells / 2)),
-        hn::Zero(d), hn::Set(d, Map::cells));
+    const V place = hn::Clamp(hn::MulAdd(normal_slope, hn::Set(d, BeckmannSampler::knots_a_unit),
+                                         hn::Set(d, Map::cells / 2)),
+                              hn::Zero(d), hn::Set(d, Map::cells));
     const auto cell = hn::Min(hn::ConvertTo(di, place), hn::Set(di, Map::cells - 1));
     const V t = hn::Sub(place, hn::ConvertTo(d, cell));
     const auto& coefficients = lobe_.map.coefficients;

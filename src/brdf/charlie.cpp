@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/gauss_rule.h"
 #include "core/error.h"
+#include "core/gauss_rule.h"
 
 namespace ltc {
 namespace {
@@ -111,34 +111,31 @@ LobeSample CharlieSampler::sample(double cos_azimuth, double sin_azimuth, double
   return sample;
 }
 
-namespace {
-
-// With about half as many directions as `points`, twice as many of them along the azimuth's half
-// turn as along the height.
-Albedo integrate_sheen(const CharlieSampler& sampler, std::size_t points) {
+Albedo CharlieSampler::albedo(std::size_t points) const {
   const auto heights = static_cast<std::size_t>(std::sqrt(static_cast<double>(points)) / 2) + 2;
   const std::size_t azimuths = 2 * heights;
-  static thread_local GaussRule rule(heights);
-  if (rule.size() != heights)
-    rule = GaussRule(heights);
-  const double turn = std::atan2(sampler.omega_v().y(), sampler.omega_v().x());
+  static thread_local std::vector<GaussNode> nodes;
+  if (nodes.size() != heights)
+    nodes = gauss_nodes_of_unit(heights);
   Albedo sum;
-  for (std::size_t i = 0; i < heights; ++i) {
-    const double t = rule.place[i], height = std::pow(t, 6), sine = std::sqrt(1 - height * height);
+  for (const auto& [t, weight] : nodes) {
+    const double height = std::pow(t, 6);
     const double share =
-        rule.weight[i] * 6 * std::pow(t, 5) * 2 * std::numbers::pi / static_cast<double>(azimuths);
+        weight * 6 * std::pow(t, 5) * 2 * std::numbers::pi / static_cast<double>(azimuths);
     for (std::size_t j = 0; j < azimuths; ++j) {
-      const double azimuth =
-          turn + std::numbers::pi * (static_cast<double>(j) + 0.5) / static_cast<double>(azimuths);
-      const Eigen::Vector3d l(sine * std::cos(azimuth), sine * std::sin(azimuth), height);
-      const double value = share * sampler.brdf_cosine(l);
-      const Eigen::Vector3d half = sampler.omega_v() + l;
+      const Eigen::Vector3d l =
+          direction(height, std::numbers::pi * (static_cast<double>(j) + 0.5) /
+                                static_cast<double>(azimuths));
+      const double value = share * brdf_cosine_of(l);
+      const Eigen::Vector3d half = omega_v() + l;
       sum.amplitude += value;
-      sum.fresnel += value * std::pow(1 - sampler.omega_v().dot(half) / half.norm(), 5);
+      sum.fresnel += value * std::pow(1 - omega_v().dot(half) / half.norm(), 5);
     }
   }
   return sum;
 }
+
+namespace {
 
 class CharlieModel final : public LobeModel {
  public:
@@ -158,7 +155,7 @@ class CharlieModel final : public LobeModel {
   // evenly in the azimuth; of samples on cells a lattice would make too little.
   Albedo albedo(const Lobe& lobe, const AlbedoRule& rule) const override {
     require(lobe);
-    return integrate_sheen(CharlieSampler(lobe, visibility_), rule.size());
+    return CharlieSampler(lobe, visibility_).albedo(rule.size());
   }
 
   Eigen::Matrix3d frame(const Lobe&) const override { return Eigen::Matrix3d::Identity(); }

@@ -36,6 +36,10 @@ class CharlieSampler final : public LobeSampler {
   LobeDensities densities(const Eigen::Vector3d& omega_l) const override;
   double most_weight() const override { return most_weight_; }
 
+  // With about half as many directions as `points`, twice as many of them along the azimuth's half
+  // turn as along the height.
+  Albedo albedo(std::size_t points) const;
+
   using LobeSampler::sample;
   LobeSample sample(double cos_azimuth, double sin_azimuth, double u_height) const override;
 

@@ -12,10 +12,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "brdf/gauss_rule.h"
 #include "brdf/light_cells.h"
 #include "brdf/measured_file.h"
 #include "core/error.h"
+#include "core/gauss_rule.h"
 
 namespace ltc {
 namespace {
@@ -141,16 +141,18 @@ class MeasuredSampler final : public LobeSampler {
   // By Gauss's rule with so many points along both sides of every cell, within which the BRDF has
   // no edges.
   Albedo albedo(std::size_t points_a_side) const {
-    const GaussRule rule(points_a_side);
+    const std::vector<GaussNode> nodes = gauss_nodes_of_unit(points_a_side);
+    const std::vector<double>&heights = cells_.heights(), &azimuths = cells_.azimuths();
     Albedo sum;
-    for (std::size_t i = 0; i + 1 < cells_.heights().size(); ++i)
-      for (const auto& [down, of_height] :
-           spots(rule, cells_.heights()[i + 1], cells_.heights()[i]))
-        for (std::size_t j = 0; j + 1 < cells_.azimuths().size(); ++j)
-          for (const auto& [azimuth, of_azimuth] :
-               spots(rule, cells_.azimuths()[j], cells_.azimuths()[j + 1])) {
-            const LightCells::Spot spot{i, j, down, azimuth};
-            const double value = value_at(spot) * down * of_height * of_azimuth;
+    for (std::size_t i = 0; i + 1 < heights.size(); ++i)
+      for (std::size_t j = 0; j + 1 < azimuths.size(); ++j)
+        for (const GaussNode& up : nodes)
+          for (const GaussNode& along : nodes) {
+            const double rise = heights[i] - heights[i + 1], width = azimuths[j + 1] - azimuths[j];
+            const LightCells::Spot spot{i, j, heights[i + 1] + up.place * rise,
+                                        azimuths[j] + along.place * width};
+            const double value =
+                value_at(spot) * spot.height * up.weight * rise * along.weight * width;
             const Eigen::Vector3d half = omega_v() + direction(spot);
             sum.amplitude += value;
             sum.fresnel += value * std::pow(1 - omega_v().dot(half) / half.norm(), 5);
@@ -172,15 +174,6 @@ class MeasuredSampler final : public LobeSampler {
   }
 
  private:
-  // Places between two ends, and their shares of the distance.
-  static std::vector<std::pair<double, double>> spots(const GaussRule& rule, double first,
-                                                      double last) {
-    std::vector<std::pair<double, double>> result;
-    for (std::size_t i = 0; i < rule.size(); ++i)
-      result.emplace_back(first + rule.place[i] * (last - first), rule.weight[i] * (last - first));
-    return result;
-  }
-
   Eigen::Vector3d direction(const LightCells::Spot& spot) const {
     const double sine = std::sqrt((1 - spot.height) * (1 + spot.height));
     return to_tangent({sine * std::cos(spot.azimuth), sine * std::sin(spot.azimuth), spot.height});

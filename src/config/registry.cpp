@@ -2,10 +2,8 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "config/registry.h"
 
-#include <algorithm>
-
 #include "brdf/lobe_model.h"
-#include "brdf/measured.h"
+#include "core/error.h"
 
 namespace ltc::config {
 namespace {
@@ -42,16 +40,13 @@ Key brdf_key() {
           "the BRDF that is fitted (docs/materials.md)",
           [](Draft& d, const Value& value) {
             const auto* text = std::get_if<std::string>(&value);
-            const auto named = [&](const LobeModel* model) {
-              return text && model->name() == *text;
-            };
-            const auto found = std::ranges::find_if(lobe_models(), named);
-            if (found != lobe_models().end())
-              d.config.grid.model = *found;
-            else if (text && names_brdf_file(*text))
-              d.config.grid.model = &measured(*text);
-            else
+            if (!text)
               return false;
+            try {
+              d.config.grid.model = &lobe_model(*text);
+            } catch (const InputError&) {
+              return false;
+            }
             return true;
           },
           [](const Draft& d) -> Value { return std::string(d.config.grid.model->name()); }};

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/gauss_rule.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fit/arc_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
@@ -456,39 +458,11 @@ void grow(AlignedVector<double>& array, std::size_t size) {
     array.resize(size);
 }
 
-// Gauss-Legendre nodes on (-1, 1), by Newton's method on the recurrence of Legendre's polynomials.
-struct LegendreNode {
-  double place, weight;
-};
-std::vector<LegendreNode> legendre_nodes(std::size_t count) {
-  std::vector<LegendreNode> nodes(count);
-  const auto n = static_cast<double>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5)), slope = 1;
-    for (int iteration = 0; iteration < 50; ++iteration) {
-      double before = 1, value = x;
-      for (std::size_t k = 2; k <= count; ++k) {
-        const auto degree = static_cast<double>(k);
-        const double next = ((2 * degree - 1) * x * value - (degree - 1) * before) / degree;
-        before = value;
-        value = next;
-      }
-      slope = n * (x * value - before) / (x * x - 1);
-      const double step = value / slope;
-      x -= step;
-      if (std::abs(step) < 1e-15)
-        break;
-    }
-    nodes[i] = {x, 2 / ((1 - x * x) * slope * slope)};
-  }
-  return nodes;
-}
-
 }  // namespace
 
 ArcNodes::ArcNodes(std::size_t count) {
   constexpr double quarter = std::numbers::pi / 2;
-  for (const LegendreNode& node : legendre_nodes(count)) {
+  for (const GaussNode& node : gauss_nodes(count)) {
     const double psi = quarter * node.place;
     sine.push_back(std::sin(psi));
     cosine.push_back(std::cos(psi));
