@@ -7,6 +7,7 @@
 #include <numbers>
 #include <ranges>
 
+#include "brdf/microfacet-inl.h"
 #include "core/gauss_rule.h"
 
 namespace ltc {
@@ -26,6 +27,13 @@ double stretched_sine(double alpha_x, double alpha_y, const Eigen::Vector3d& ome
 double z_lambda(double z, double s) {
   const double a = z / s;
   return std::max(0.0, (s * std::exp(-a * a) * inv_sqrt_pi - z * std::erfc(a)) / 2);
+}
+
+// vz (1 + Lambda(v)).
+double visible_area(const Lobe& lobe) {
+  const Eigen::Vector3d v = lobe.omega_v();
+  const double s = stretched_sine(lobe.alpha_x, lobe.alpha_y, v);
+  return v.z() + (s > 0 ? z_lambda(v.z(), s) : 0);
 }
 
 // The mass of a unit normal slope's visible part beyond x and below it, of the density
@@ -108,18 +116,15 @@ double beckmann_lambda(double alpha_x, double alpha_y, const Eigen::Vector3d& om
   return s > 0 ? z_lambda(z, s) / z : 0;
 }
 
-BeckmannSampler::BeckmannSampler(const Lobe& lobe)
-    : LobeSampler(lobe.omega_v()),
-      alpha_x_(lobe.alpha_x),
-      alpha_y_(lobe.alpha_y),
-      lambda_v_(beckmann_lambda(alpha_x_, alpha_y_, omega_v())) {
-  const double s = stretched_sine(alpha_x_, alpha_y_, omega_v()), z = omega_v().z();
+template class MicrofacetSampler<BeckmannSampler, beckmann_ndf, beckmann_lambda>;
+
+BeckmannSampler::BeckmannSampler(const Lobe& lobe) : MicrofacetSampler(lobe, visible_area(lobe)) {
+  const double s = stretched_sine(alpha_x(), alpha_y(), omega_v()), z = omega_v().z();
   const double length = std::hypot(s, z);
   s_ = s / length;
   c_ = z / length;
-  along_x_ = s > 0 ? alpha_x_ * omega_v().x() / s : 1;
-  along_y_ = s > 0 ? alpha_y_ * omega_v().y() / s : 0;
-  vz_one_plus_lambda_v_ = z + (s > 0 ? z_lambda(z, s) : 0);
+  along_x_ = s > 0 ? alpha_x() * omega_v().x() / s : 1;
+  along_y_ = s > 0 ? alpha_y() * omega_v().y() / s : 0;
   tabulate();
 }
 
@@ -177,7 +182,7 @@ BeckmannSampler::SlopeMap BeckmannSampler::slope_map() const {
   SlopeMap map;
   map.along_x = along_x_;
   map.along_y = along_y_;
-  map.one_plus_lambda_v = 1 + lambda_v_;
+  map.one_plus_lambda_v = 1 + lambda_v();
   for (std::size_t cell = 0; cell < SlopeMap::cells; ++cell) {
     const std::array<double, 6> coefficients = hermite(knots_[cell], knots_[cell + 1]);
     for (std::size_t power = 0; power < 6; ++power)
@@ -191,37 +196,9 @@ LobeSample BeckmannSampler::sample(double cos_azimuth, double sin_azimuth, doubl
   const double along = visible_slope(radius * cos_azimuth);
   // Beyond six the normal density has nothing left; and an infinite radius times zero is no number.
   const double across = std::min(radius, 7.0) * sin_azimuth;
-  const Eigen::Vector3d half(alpha_x_ * (along * along_x_ - across * along_y_),
-                             alpha_y_ * (along * along_y_ + across * along_x_), 1);
-  LobeSample sample = reflected(half.normalized());
-  if (sample.omega_l.z() > 0)
-    sample.weight =
-        (1 + lambda_v_) / (1 + lambda_v_ + beckmann_lambda(alpha_x_, alpha_y_, sample.omega_l));
-  return sample;
-}
-
-LobeDensities BeckmannSampler::densities_of(const Eigen::Vector3d& half,
-                                            const Eigen::Vector3d& omega_l) const {
-  const double ndf = beckmann_ndf(alpha_x_, alpha_y_, half);
-  LobeDensities densities{0, ndf / (4 * vz_one_plus_lambda_v_)};
-  if (omega_l.z() > 0)
-    densities.brdf_cosine =
-        ndf / (4 * (vz_one_plus_lambda_v_ +
-                    omega_v().z() * beckmann_lambda(alpha_x_, alpha_y_, omega_l)));
-  return densities;
-}
-
-LobeDensities BeckmannSampler::densities(const Eigen::Vector3d& omega_l) const {
-  return densities_of(omega_v() + omega_l, omega_l);
-}
-
-LobeDensities BeckmannSampler::densities_at_offset(const Eigen::Vector3d& offset) const {
-  return densities_of({offset.x(), offset.y(), 2 * omega_v().z() + offset.z()}, axis() + offset);
-}
-
-void BeckmannSampler::sample_all(const SampleLattice& lattice, WeightedSamples& samples) const {
-  fill(lattice, samples,
-       [&](double c, double s, double u) { return BeckmannSampler::sample(c, s, u); });
+  const Eigen::Vector3d half(alpha_x() * (along * along_x_ - across * along_y_),
+                             alpha_y() * (along * along_y_ + across * along_x_), 1);
+  return weighted(half.normalized());
 }
 
 }  // namespace ltc

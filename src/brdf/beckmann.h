@@ -11,7 +11,7 @@
 #include <cstddef>
 
 #include "brdf/lobe_model.h"
-#include "brdf/lobe_sampler.h"
+#include "brdf/microfacet.h"
 
 namespace ltc {
 
@@ -31,16 +31,13 @@ double beckmann_lambda(double alpha_x, double alpha_y, const Eigen::Vector3d& om
 // coordinates, by polar coordinates from the unit square, becomes one of them by a monotonic map of
 // X alone. So the map from the square is continuous, periodic in the azimuth, and has the tails at
 // the end of the heights.
-class BeckmannSampler final : public LobeSampler {
+class BeckmannSampler final
+    : public MicrofacetSampler<BeckmannSampler, beckmann_ndf, beckmann_lambda> {
  public:
   explicit BeckmannSampler(const Lobe& lobe);
 
-  LobeDensities densities(const Eigen::Vector3d& omega_l) const override;
-  LobeDensities densities_at_offset(const Eigen::Vector3d& offset) const override;
-
   using LobeSampler::sample;
   LobeSample sample(double cos_azimuth, double sin_azimuth, double u_height) const override;
-  void sample_all(const SampleLattice& lattice, WeightedSamples& samples) const override;
 
   // Of the map below, evenly from -6 to 6.
   static constexpr int knots_a_unit = 8, last_knot = 6 * knots_a_unit;
@@ -63,16 +60,13 @@ class BeckmannSampler final : public LobeSampler {
   // The map at a knot, and its derivatives times the knots' distance and its square.
   using Knot = std::array<double, 3>;
 
-  LobeDensities densities_of(const Eigen::Vector3d& half, const Eigen::Vector3d& omega_l) const;
   void tabulate();
 
-  double alpha_x_, alpha_y_;
-  double s_, c_;                 // of the stretched view, of unit length
-  double along_x_, along_y_;     // its azimuth
-  double lambda_v_;              // Lambda(omega_v)
-  double vz_one_plus_lambda_v_;  // vz (1 + Lambda(omega_v)), finite at the horizon too
+  double s_, c_;              // of the stretched view, of unit length
+  double along_x_, along_y_;  // its azimuth
   std::array<Knot, 2 * last_knot + 1> knots_;
 };
+extern template class MicrofacetSampler<BeckmannSampler, beckmann_ndf, beckmann_lambda>;
 
 const LobeModel& beckmann();
 

@@ -99,16 +99,8 @@ LobeDensities CharlieSampler::densities(const Eigen::Vector3d& omega_l) const {
 
 LobeSample CharlieSampler::sample(double cos_azimuth, double sin_azimuth, double u_height) const {
   const LightCells::Spot spot = cells_.draw(cos_azimuth, sin_azimuth, u_height);
-  LobeSample sample;
-  sample.omega_l = direction(spot.height, spot.azimuth);
-  // z - 1 of a direction near the normal, from its sine.
-  const double sine_squared = (1 - spot.height) * (1 + spot.height);
-  sample.offset << sample.omega_l.head<2>(), -sine_squared / (1 + spot.height);
-  const Eigen::Vector3d half = omega_v() + sample.omega_l;
-  sample.v_dot_h = omega_v().dot(half) / half.norm();
-  if (const double density = cells_.density(spot); spot.height > 0 && density > 0)
-    sample.weight = brdf_cosine_of(sample.omega_l) / density;
-  return sample;
+  const Eigen::Vector3d omega_l = direction(spot.height, spot.azimuth);
+  return sample_about_normal(omega_v(), omega_l, brdf_cosine_of(omega_l), cells_.density(spot));
 }
 
 Albedo CharlieSampler::albedo(std::size_t points) const {

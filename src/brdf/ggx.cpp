@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "brdf/microfacet-inl.h"
+
 namespace ltc {
 namespace {
 
@@ -16,6 +18,13 @@ double square(double x) {
 // (alpha_x x)^2 + (alpha_y y)^2: z^2 times the slope variance along the direction.
 double stretched_sine_squared(double alpha_x, double alpha_y, const Eigen::Vector3d& omega) {
   return square(alpha_x * omega.x()) + square(alpha_y * omega.y());
+}
+
+// vz (1 + Lambda(v)) = (vz + sqrt(vz^2 + s^2))/2.
+double visible_area(const Lobe& lobe) {
+  const Eigen::Vector3d v = lobe.omega_v();
+  const double s_squared = stretched_sine_squared(lobe.alpha_x, lobe.alpha_y, v);
+  return (v.z() + std::sqrt(square(v.z()) + s_squared)) / 2;
 }
 
 }  // namespace
@@ -38,40 +47,15 @@ double ggx_lambda(double alpha_x, double alpha_y, const Eigen::Vector3d& omega) 
   return s_squared / (2 * z * (z + std::sqrt(z * z + s_squared)));
 }
 
+template class MicrofacetSampler<GgxSampler, ggx_ndf, ggx_lambda>;
+
 GgxSampler::GgxSampler(const Lobe& lobe)
-    : LobeSampler(lobe.omega_v()),
-      alpha_x_(lobe.alpha_x),
-      alpha_y_(lobe.alpha_y),
+    : MicrofacetSampler(lobe, visible_area(lobe)),
       stretched_v_(
-          Eigen::Vector3d(alpha_x_ * omega_v().x(), alpha_y_ * omega_v().y(), omega_v().z())
+          Eigen::Vector3d(alpha_x() * omega_v().x(), alpha_y() * omega_v().y(), omega_v().z())
               .normalized()),
       one_minus_stretched_z_((square(stretched_v_.x()) + square(stretched_v_.y())) /
-                             (1 + stretched_v_.z())),
-      lambda_v_(ggx_lambda(alpha_x_, alpha_y_, omega_v())) {
-  // vz (1 + Lambda) = (vz + sqrt(vz^2 + s^2))/2.
-  const double s_squared = stretched_sine_squared(alpha_x_, alpha_y_, omega_v());
-  vz_one_plus_lambda_v_ = (omega_v().z() + std::sqrt(square(omega_v().z()) + s_squared)) / 2;
-}
-
-LobeDensities GgxSampler::densities_of(const Eigen::Vector3d& half,
-                                       const Eigen::Vector3d& omega_l) const {
-  const double ndf = ggx_ndf(alpha_x_, alpha_y_, half);
-  LobeDensities densities{0, ndf / (4 * vz_one_plus_lambda_v_)};
-  if (omega_l.z() > 0) {
-    // G2/cos theta_v = 1/(vz (1 + Lambda(v) + Lambda(l))).
-    const double lambda_l = ggx_lambda(alpha_x_, alpha_y_, omega_l);
-    densities.brdf_cosine = ndf / (4 * (vz_one_plus_lambda_v_ + omega_v().z() * lambda_l));
-  }
-  return densities;
-}
-
-LobeDensities GgxSampler::densities(const Eigen::Vector3d& omega_l) const {
-  return densities_of(omega_v() + omega_l, omega_l);
-}
-
-LobeDensities GgxSampler::densities_at_offset(const Eigen::Vector3d& offset) const {
-  return densities_of({offset.x(), offset.y(), 2 * omega_v().z() + offset.z()}, axis() + offset);
-}
+                             (1 + stretched_v_.z())) {}
 
 // The cap is the part of the unit sphere with z > -v_z (v the stretched view direction). For a
 // point c uniform on it c + v has the direction of a visible normal at unit roughness, and
@@ -82,21 +66,9 @@ Eigen::Vector3d GgxSampler::visible_normal(double cos_azimuth, double sin_azimut
   const double depth = u_height * (1 + stretched_v_.z());
   const double above_rim = (1 - u_height) * (1 + stretched_v_.z());
   const double sine = std::sqrt(depth * (above_rim + one_minus_stretched_z_));
-  return Eigen::Vector3d(alpha_x_ * (sine * cos_azimuth + stretched_v_.x()),
-                         alpha_y_ * (sine * sin_azimuth + stretched_v_.y()), above_rim)
+  return Eigen::Vector3d(alpha_x() * (sine * cos_azimuth + stretched_v_.x()),
+                         alpha_y() * (sine * sin_azimuth + stretched_v_.y()), above_rim)
       .normalized();
-}
-
-LobeSample GgxSampler::reflect(const Eigen::Vector3d& omega_h) const {
-  LobeSample sample = reflected(omega_h);
-  if (sample.omega_l.z() > 0)
-    sample.weight =
-        (1 + lambda_v_) / (1 + lambda_v_ + ggx_lambda(alpha_x_, alpha_y_, sample.omega_l));
-  return sample;
-}
-
-void GgxSampler::sample_all(const SampleLattice& lattice, WeightedSamples& samples) const {
-  fill(lattice, samples, [&](double c, double s, double u) { return GgxSampler::sample(c, s, u); });
 }
 
 }  // namespace ltc

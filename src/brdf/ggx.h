@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "brdf/lobe_model.h"
-#include "brdf/lobe_sampler.h"
+#include "brdf/microfacet.h"
 
 namespace ltc {
 
@@ -22,15 +22,10 @@ double ggx_ndf(double alpha_x, double alpha_y, const Eigen::Vector3d& omega_h);
 // Lambda, equation (5), free of cancellation. Infinite at the horizon; even in z.
 double ggx_lambda(double alpha_x, double alpha_y, const Eigen::Vector3d& omega);
 
-// Evaluates and samples one lobe; keeps what only depends on the view.
-class GgxSampler final : public LobeSampler {
+// Evaluates (equation 6) and samples one lobe; keeps what only depends on the view.
+class GgxSampler final : public MicrofacetSampler<GgxSampler, ggx_ndf, ggx_lambda> {
  public:
   explicit GgxSampler(const Lobe& lobe);
-
-  // Equation (6), and the density of reflections about visible normals, D_v(h)/(4 v.h) =
-  // G1(v) D(h)/(4 cos theta_v).
-  LobeDensities densities(const Eigen::Vector3d& omega_l) const override;
-  LobeDensities densities_at_offset(const Eigen::Vector3d& offset) const override;
 
   // A visible microfacet normal from two uniforms on [0, 1): u_azimuth, given by the cosine and
   // sine of as many turns, turns about the pole of the spherical cap of Dupuy and Benyoub 2023,
@@ -38,25 +33,19 @@ class GgxSampler final : public LobeSampler {
   // map is continuous in both, periodic in u_azimuth.
   Eigen::Vector3d visible_normal(double cos_azimuth, double sin_azimuth, double u_height) const;
 
-  // Reflects the view direction about a unit microfacet normal on or above the horizon. The weight
-  // is G2/G1 = (1 + Lambda(v))/(1 + Lambda(v) + Lambda(l)).
-  LobeSample reflect(const Eigen::Vector3d& omega_h) const;
+  // Reflects the view direction about a unit microfacet normal on or above the horizon.
+  LobeSample reflect(const Eigen::Vector3d& omega_h) const { return weighted(omega_h); }
 
   using LobeSampler::sample;
   LobeSample sample(double cos_azimuth, double sin_azimuth, double u_height) const override {
     return reflect(visible_normal(cos_azimuth, sin_azimuth, u_height));
   }
-  void sample_all(const SampleLattice& lattice, WeightedSamples& samples) const override;
 
  private:
-  LobeDensities densities_of(const Eigen::Vector3d& half, const Eigen::Vector3d& omega_l) const;
-
-  double alpha_x_, alpha_y_;
   Eigen::Vector3d stretched_v_;  // omega_v stretched to unit roughness, of unit length
   double one_minus_stretched_z_;
-  double lambda_v_;              // Lambda(omega_v)
-  double vz_one_plus_lambda_v_;  // vz (1 + Lambda(omega_v)), finite at the horizon too
 };
+extern template class MicrofacetSampler<GgxSampler, ggx_ndf, ggx_lambda>;
 
 // The model, with kernels of its own.
 const LobeModel& ggx();

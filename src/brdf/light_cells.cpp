@@ -78,4 +78,17 @@ LightCells::Spot LightCells::spot_of(double height, double azimuth) const {
   return spot;
 }
 
+LobeSample sample_about_normal(const Eigen::Vector3d& omega_v, const Eigen::Vector3d& omega_l,
+                               double brdf_cosine, double density) {
+  LobeSample sample;
+  sample.omega_l = omega_l;
+  // z - 1 of a direction near the normal, from its sine.
+  sample.offset << omega_l.head<2>(), -omega_l.head<2>().squaredNorm() / (1 + omega_l.z());
+  const Eigen::Vector3d half = omega_v + omega_l;
+  sample.v_dot_h = omega_v.dot(half) / half.norm();
+  if (omega_l.z() > 0 && density > 0)
+    sample.weight = brdf_cosine / density;
+  return sample;
+}
+
 }  // namespace ltc

@@ -4,9 +4,12 @@
 // sampler of their own.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include "brdf/lobe_sampler.h"
 
 namespace ltc {
 
@@ -67,5 +70,10 @@ class LightCells {
   std::vector<double> below_cell_;  // likewise along each row
   double total_ = 0, steepest_ = 0;
 };
+
+// A light direction on or above the horizon as a sample of a sampler whose axis is the normal, its
+// weight that of the cosine-weighted BRDF over the density of samples; none where one of them is.
+LobeSample sample_about_normal(const Eigen::Vector3d& omega_v, const Eigen::Vector3d& omega_l,
+                               double brdf_cosine, double density);
 
 }  // namespace ltc

@@ -163,14 +163,8 @@ class MeasuredSampler final : public LobeSampler {
   using LobeSampler::sample;
   LobeSample sample(double cos_azimuth, double sin_azimuth, double u_height) const override {
     const LightCells::Spot spot = cells_.draw(cos_azimuth, sin_azimuth, u_height);
-    LobeSample sample;
-    sample.omega_l = direction(spot);
-    sample.offset << sample.omega_l.head<2>(), spot.height - 1;
-    const Eigen::Vector3d half = omega_v() + sample.omega_l;
-    sample.v_dot_h = omega_v().dot(half) / half.norm();
-    if (const double density = cells_.per_measure(spot); spot.height > 0 && density > 0)
-      sample.weight = value_at(spot) / density;
-    return sample;
+    return sample_about_normal(omega_v(), direction(spot), value_at(spot),
+                               cells_.per_measure(spot));
   }
 
  private:

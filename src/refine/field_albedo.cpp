@@ -32,25 +32,26 @@ struct Wanted {
   Eigen::VectorXd value, weight;
 };
 
-Eigen::MatrixXd rows_of(const std::vector<FieldVariables>& at, const std::vector<FieldTerm>& terms,
-                        const RunContext& run) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(at.size()),
-                       static_cast<Eigen::Index>(terms.size()));
+// A column a lobe.
+Eigen::MatrixXd values_of(const std::vector<FieldVariables>& at,
+                          const std::vector<FieldTerm>& terms, const RunContext& run) {
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(terms.size()),
+                         static_cast<Eigen::Index>(at.size()));
   parallel_for(at.size(), run, [&](std::size_t q) {
     const FieldBasis basis(at[q]);
     for (std::size_t i = 0; i < terms.size(); ++i)
-      rows(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(i)) = basis.value(terms[i]);
+      values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(q)) = basis.value(terms[i]);
   });
-  return rows;
+  return values;
 }
 
 struct Equations {
   Eigen::MatrixXd curvature;
   Eigen::VectorXd right;
 };
-Equations equations_of(const Eigen::MatrixXd& rows, const Wanted& wanted) {
-  const Eigen::MatrixXd weighted = wanted.weight.cwiseSqrt().asDiagonal() * rows;
-  Equations result{squared(weighted), rows.transpose() * wanted.weight.cwiseProduct(wanted.value)};
+Equations equations_of(const Eigen::MatrixXd& values, const Wanted& wanted) {
+  const Eigen::MatrixXd weighted = values * wanted.weight.cwiseSqrt().asDiagonal();
+  Equations result{squared(weighted), values * wanted.weight.cwiseProduct(wanted.value)};
   result.curvature.diagonal().array() +=
       damping * (result.curvature.diagonal().array() + result.curvature.diagonal().mean());
   return result;
@@ -60,22 +61,22 @@ Equations equations_of(const Eigen::MatrixXd& rows, const Wanted& wanted) {
 void fit_part(const std::vector<FieldVariables>& at, const std::vector<FieldTerm>& pool,
               const Wanted& wanted, std::size_t count, bool half, const RunContext& run,
               Field& field) {
-  Equations equations = equations_of(rows_of(at, pool, run), wanted);
+  Equations equations = equations_of(values_of(at, pool, run), wanted);
   run.throw_if_stopped();
   const std::vector<bool> kept = terms_to_keep(equations.curvature, equations.right, count);
   std::vector<FieldTerm> terms;
   for (std::size_t i = 0; i < pool.size(); ++i)
     if (kept[i])
       terms.push_back(pool[i]);
-  const Eigen::MatrixXd rows = rows_of(at, terms, run);
+  const Eigen::MatrixXd values = values_of(at, terms, run);
   Wanted weighed = wanted;
   Eigen::VectorXd coefficients;
   for (int round = 0; round < rounds; ++round) {
     run.throw_if_stopped();
-    equations = equations_of(rows, weighed);
+    equations = equations_of(values, weighed);
     coefficients = CholeskyFactor(equations.curvature).solve(equations.right);
-    const Eigen::ArrayXd error =
-        (rows * coefficients - wanted.value).array().abs() * wanted.weight.array().sqrt();
+    const Eigen::ArrayXd error = (values.transpose() * coefficients - wanted.value).array().abs() *
+                                 wanted.weight.array().sqrt();
     weighed.weight.array() *= 1 + (error / (outlier * error.mean())).square().min(3.0);
   }
   for (std::size_t i = 0; i < terms.size(); ++i) {

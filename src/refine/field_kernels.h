@@ -8,27 +8,27 @@
 
 namespace ltc::kernels {
 
-// Columns of `rows` numbers, each `pitch` after the one before.
+// `depth` rows of `count` numbers, each row `pitch` after the one before.
 template <typename Number>
-struct ColumnsOf {
+struct RowsOf {
   const Number* data;
-  std::size_t rows, count;
-  std::size_t pitch = rows;
+  std::size_t count, depth;
+  std::size_t pitch = count;
 };
-using Columns = ColumnsOf<float>;
 
 // Rows that are summed in the numbers' own precision.
 inline constexpr std::size_t product_stretch = 256;
 
-// result(i, j) = sum_q a(q, i) b(q, j), a column of `stride` for each j: over
-// stretches of rows in their precision, and in double from stretch to stretch. The same number of
-// rows in both.
-void multiply_transposed(const Columns& a, const Columns& b, double* result, std::size_t stride);
-void multiply_transposed(const ColumnsOf<double>& a, const ColumnsOf<double>& b, double* result,
-                         std::size_t stride);
+// Which of the products are wanted: all, or those with i <= j, where others may be added too.
+enum class Products { all, upper };
 
-// result(i, j) = sum_q a(q, i) weights_q b(q, j).
-void multiply_weighted(const Columns& a, const float* weights, const Columns& b, double* result,
-                       std::size_t stride);
+// result(i, j) += scale sum_q a(q, i) weights_q b(q, j), a column of `stride` for each j; without
+// weights where there are none. Over stretches of rows in the numbers' precision, one after the
+// other, and in double from stretch to stretch. The same number of rows in both. Of single
+// precision, weights and a are multiplied first.
+void add_products(const RowsOf<float>& a, const float* weights, const RowsOf<float>& b,
+                  double scale, double* result, std::size_t stride, Products wanted);
+void add_products(const RowsOf<double>& a, const double* weights, const RowsOf<double>& b,
+                  double scale, double* result, std::size_t stride, Products wanted);
 
 }  // namespace ltc::kernels

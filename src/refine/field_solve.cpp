@@ -10,80 +10,85 @@
 namespace ltc {
 namespace {
 
-constexpr Eigen::Index block = 64;
+// A factor's, and a product's.
+constexpr Eigen::Index block = 48, wide_block = 192;
 
-// `count` columns of a matrix from one on, and of these `rows` rows from another on.
-kernels::ColumnsOf<double> columns_of(const Eigen::MatrixXd& matrix, Eigen::Index row,
-                                      Eigen::Index rows, Eigen::Index column, Eigen::Index count) {
-  return {matrix.data() + column * matrix.rows() + row, static_cast<std::size_t>(rows),
-          static_cast<std::size_t>(count), static_cast<std::size_t>(matrix.rows())};
+// `count` rows of a matrix from one on, and of these `depth` columns from another on.
+kernels::RowsOf<double> rows_of(const Eigen::MatrixXd& matrix, Eigen::Index row, Eigen::Index count,
+                                Eigen::Index column, Eigen::Index depth) {
+  return {matrix.data() + column * matrix.rows() + row, static_cast<std::size_t>(count),
+          static_cast<std::size_t>(depth), static_cast<std::size_t>(matrix.rows())};
 }
 
-// The upper half of the product of a matrix's transpose and itself, and with it the lower one. Of
-// a lower triangular one the zeros are left out.
-enum class Shape { full, lower };
-Eigen::MatrixXd transposed_times_itself(const Eigen::MatrixXd& matrix, Shape shape) {
-  const Eigen::Index n = matrix.cols();
-  Eigen::MatrixXd result(n, n);
-  for (Eigen::Index j = 0; j < n; j += block) {
-    const Eigen::Index count = std::min(block, n - j), first = shape == Shape::lower ? j : 0;
-    const Eigen::Index rows = matrix.rows() - first;
-    kernels::multiply_transposed(columns_of(matrix, first, rows, 0, j + count),
-                                 columns_of(matrix, first, rows, j, count), &result(0, j),
-                                 static_cast<std::size_t>(n));
+// Adds to a part of a matrix that begins at an entry.
+void add(const kernels::RowsOf<double>& a, const kernels::RowsOf<double>& b, double scale,
+         Eigen::MatrixXd& to, Eigen::Index row, Eigen::Index column) {
+  kernels::add_products(a, nullptr, b, scale, &to(row, column), static_cast<std::size_t>(to.rows()),
+                        kernels::Products::all);
+}
+
+// Adds the upper half of a matrix times its transpose to a symmetric one, and makes the lower one
+// alike. Of an upper triangular one the zeros are left out.
+enum class Shape { full, upper };
+void add_squared(const Eigen::MatrixXd& matrix, Shape shape, double scale, Eigen::MatrixXd& to) {
+  const Eigen::Index n = matrix.rows();
+  for (Eigen::Index j = 0; j < n; j += wide_block) {
+    const Eigen::Index count = std::min(wide_block, n - j);
+    const Eigen::Index first = shape == Shape::upper ? j : 0, depth = matrix.cols() - first;
+    add(rows_of(matrix, 0, j + count, first, depth), rows_of(matrix, j, count, first, depth), scale,
+        to, 0, j);
   }
-  result.triangularView<Eigen::StrictlyLower>() = result.transpose();
-  return result;
+  to.triangularView<Eigen::StrictlyLower>() = to.transpose();
 }
 
 }  // namespace
 
-CholeskyFactor::CholeskyFactor(Eigen::MatrixXd matrix) : upper_(std::move(matrix)) {
-  const Eigen::Index n = upper_.rows();
-  Eigen::MatrixXd product(block, n);
+CholeskyFactor::CholeskyFactor(Eigen::MatrixXd matrix) : lower_(std::move(matrix)) {
+  const Eigen::Index n = lower_.rows();
   for (Eigen::Index j = 0; j < n; j += block) {
     const Eigen::Index count = std::min(block, n - j), rest = n - j - count;
-    if (j > 0) {
-      kernels::multiply_transposed(columns_of(upper_, 0, j, j, count),
-                                   columns_of(upper_, 0, j, j, n - j), product.data(),
-                                   static_cast<std::size_t>(block));
-      upper_.block(j, j, count, n - j) -= product.topLeftCorner(count, n - j);
-    }
-    const Eigen::LLT<Eigen::MatrixXd, Eigen::Upper> own(upper_.block(j, j, count, count));
-    upper_.block(j, j, count, count) = own.matrixU();
+    if (j > 0)
+      add(rows_of(lower_, j, n - j, 0, j), rows_of(lower_, j, count, 0, j), -1, lower_, j, j);
+    const Eigen::LLT<Eigen::MatrixXd> own(lower_.block(j, j, count, count));
+    lower_.block(j, j, count, count) = own.matrixL();
     if (rest > 0)
-      own.matrixU().transpose().solveInPlace(upper_.block(j, j + count, count, rest));
+      own.matrixU().solveInPlace<Eigen::OnTheRight>(lower_.block(j + count, j, rest, count));
   }
 }
 
 Eigen::VectorXd CholeskyFactor::solve(const Eigen::VectorXd& right) const {
-  const auto upper = upper_.triangularView<Eigen::Upper>();
-  return upper.solve(upper.transpose().solve(right));
+  const auto lower = lower_.triangularView<Eigen::Lower>();
+  return lower.transpose().solve(lower.solve(right));
 }
 
+// Of Y L^T = 1 a block of columns after the other, and Y Y^T.
 Eigen::MatrixXd CholeskyFactor::inverse() const {
-  const Eigen::Index n = upper_.rows();
-  // U^-T, a block of rows after the other.
-  Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n, n), product(block, block);
+  const Eigen::Index n = lower_.rows();
+  Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index j = 0; j < n; j += block) {
     const Eigen::Index count = std::min(block, n - j);
-    lower.block(j, j, count, count).setIdentity();
-    for (Eigen::Index column = 0; column < j; column += block) {
-      kernels::multiply_transposed(columns_of(upper_, column, j - column, j, count),
-                                   columns_of(lower, column, j - column, column, block),
-                                   product.data(), static_cast<std::size_t>(block));
-      lower.block(j, column, count, block) = -product.topRows(count);
-    }
-    upper_.block(j, j, count, count)
-        .triangularView<Eigen::Upper>()
+    upper.block(j, j, count, count).setIdentity();
+    for (Eigen::Index row = 0; row < j; row += block)
+      add(rows_of(upper, row, block, row, j - row), rows_of(lower_, j, count, row, j - row), -1,
+          upper, row, j);
+    lower_.block(j, j, count, count)
+        .triangularView<Eigen::Lower>()
         .transpose()
-        .solveInPlace(lower.block(j, 0, count, j + count));
+        .solveInPlace<Eigen::OnTheRight>(upper.block(0, j, j + count, count));
   }
-  return transposed_times_itself(lower, Shape::lower);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
+  add_squared(upper, Shape::upper, 1, result);
+  return result;
 }
 
-Eigen::MatrixXd squared(const Eigen::MatrixXd& rows) {
-  return transposed_times_itself(rows, Shape::full);
+Eigen::MatrixXd squared(const Eigen::MatrixXd& matrix) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.rows(), matrix.rows());
+  add_squared(matrix, Shape::full, 1, result);
+  return result;
+}
+
+void subtract_squared(const Eigen::MatrixXd& taken, Eigen::MatrixXd& from) {
+  add_squared(taken, Shape::full, -1, from);
 }
 
 }  // namespace ltc

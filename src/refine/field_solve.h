@@ -9,7 +9,7 @@
 
 namespace ltc {
 
-// Of a positive definite matrix, of which the upper half is read; another one's solutions are
+// Of a positive definite matrix, of which the lower half is read; another one's solutions are
 // without meaning.
 class CholeskyFactor {
  public:
@@ -19,10 +19,13 @@ class CholeskyFactor {
   Eigen::MatrixXd inverse() const;
 
  private:
-  Eigen::MatrixXd upper_;  // U of U^T U; what is below the diagonal does not count
+  Eigen::MatrixXd lower_;  // L of L L^T; what is above the diagonal does not count
 };
 
-// rows^T rows.
-Eigen::MatrixXd squared(const Eigen::MatrixXd& rows);
+// A matrix times its own transpose.
+Eigen::MatrixXd squared(const Eigen::MatrixXd& matrix);
+
+// Takes that away from a matrix.
+void subtract_squared(const Eigen::MatrixXd& taken, Eigen::MatrixXd& from);
 
 }  // namespace ltc

@@ -25,11 +25,6 @@ namespace {
 constexpr double start_damping = 1e-4, start_smoothing = 10;
 constexpr int start_rounds = 4;
 
-kernels::Columns columns_of(const Eigen::MatrixXf& matrix) {
-  return {matrix.data(), static_cast<std::size_t>(matrix.rows()),
-          static_cast<std::size_t>(matrix.cols())};
-}
-
 }  // namespace
 
 FieldSystem::FieldSystem(const WeightedLobes& asked, double alpha_min, const Creases& creases,
@@ -61,14 +56,12 @@ void FieldSystem::set_terms(const std::vector<FieldTerm>& terms, const RunContex
       most_degree = std::max<std::size_t>(most_degree, degree);
   }
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  for (std::size_t part = 0; part < parts; ++part)
-    rows_[part].resize(static_cast<Eigen::Index>(size()), first_[part + 1] - first_[part]);
+  phi_.resize(first_[parts], static_cast<Eigen::Index>(size()));
   parallel_for(size(), run, [&](std::size_t q) {
     const FieldBasis basis(queries_[q].at, most_degree);
-    for (std::size_t part = 0; part < parts; ++part)
-      for (Eigen::Index i = 0; i < rows_[part].cols(); ++i)
-        rows_[part](static_cast<Eigen::Index>(q), i) =
-            static_cast<float>(basis.value(terms[static_cast<std::size_t>(first_[part] + i)]));
+    float* of_query = phi_.col(static_cast<Eigen::Index>(q)).data();
+    for (const FieldTerm& term : terms)
+      *of_query++ = static_cast<float>(basis.value(term));
   });
 }
 
@@ -138,10 +131,14 @@ void FieldSystem::evaluate_query(std::size_t q, const PartVector& values,
 Eigen::MatrixXf FieldSystem::values_at(const Eigen::VectorXd& coefficients,
                                        const RunContext& run) const {
   Eigen::MatrixXf values(parts, static_cast<Eigen::Index>(size()));
-  parallel_for(parts, run, [&](std::size_t part) {
-    const Eigen::VectorXf own =
-        coefficients.segment(first_[part], first_[part + 1] - first_[part]).cast<float>();
-    values.row(static_cast<Eigen::Index>(part)) = (rows_[part] * own).transpose();
+  const Eigen::VectorXf single = coefficients.cast<float>();
+  parallel_for(size(), run, [&](std::size_t q) {
+    const auto query = static_cast<Eigen::Index>(q);
+    for (std::size_t part = 0; part < parts; ++part)
+      values(static_cast<Eigen::Index>(part), query) =
+          phi_.col(query)
+              .segment(first_[part], size_of(part))
+              .dot(single.segment(first_[part], size_of(part)));
   });
   return values;
 }
@@ -165,12 +162,11 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
                                              const RunContext& run) const {
   const auto count = static_cast<Eigen::Index>(size());
   const Eigen::Index n = first_[parts];
-  Equations result{Eigen::MatrixXd(n, n), Eigen::VectorXd(n)};
+  Equations result{Eigen::MatrixXd(n, n), Eigen::VectorXd::Zero(n)};
   std::vector<std::pair<std::size_t, std::size_t>> blocks;
   for (std::size_t a = 0; a < parts; ++a)
     for (std::size_t b = a; b < parts; ++b)
       blocks.emplace_back(a, b);
-  const auto size_of = [&](std::size_t part) { return first_[part + 1] - first_[part]; };
   // Query by query once, for models lie far apart.
   Eigen::MatrixXf curvatures(count, static_cast<Eigen::Index>(blocks.size()));
   Eigen::MatrixXd gradients(count, static_cast<Eigen::Index>(parts));
@@ -188,16 +184,21 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
       Spreading::moving, blocks.size(), run, [] { return None(); },
       [&](std::size_t i, None&) {
         const auto [a, b] = blocks[i];
-        if (rows_[a].cols() == 0 || rows_[b].cols() == 0)
-          return;
-        kernels::multiply_weighted(columns_of(rows_[a]),
-                                   curvatures.col(static_cast<Eigen::Index>(i)).data(),
-                                   columns_of(rows_[b]), &result.curvature(first_[a], first_[b]),
-                                   static_cast<std::size_t>(n));
+        const auto numbers_of = [&](std::size_t part) {
+          return kernels::RowsOf<float>{phi_.data() + first_[part],
+                                        static_cast<std::size_t>(size_of(part)), size(),
+                                        static_cast<std::size_t>(n)};
+        };
+        result.curvature.block(first_[a], first_[b], size_of(a), size_of(b)).setZero();
+        kernels::add_products(numbers_of(a), curvatures.col(static_cast<Eigen::Index>(i)).data(),
+                              numbers_of(b), 1, result.curvature.col(first_[b]).data() + first_[a],
+                              static_cast<std::size_t>(n),
+                              a == b ? kernels::Products::upper : kernels::Products::all);
         if (a == b)
-          for (Eigen::Index i = 0; i < rows_[a].cols(); ++i)
-            result.gradient[first_[a] + i] =
-                rows_[a].col(i).cast<double>().dot(gradients.col(static_cast<Eigen::Index>(a)));
+          for (Eigen::Index q = 0; q < count; ++q)
+            result.gradient.segment(first_[a], size_of(a)) +=
+                gradients(q, static_cast<Eigen::Index>(a)) *
+                phi_.col(q).segment(first_[a], size_of(a)).cast<double>();
       },
       [&](std::size_t i, auto&& take) {
         const auto [a, b] = blocks[i];
@@ -209,10 +210,7 @@ FieldSystem::Equations FieldSystem::assemble(const std::vector<double>& weights,
           take(std::as_writable_bytes(std::span(result.gradient.data() + first_[a], rows)));
       },
       [](std::size_t) {});
-  for (const auto& [a, b] : blocks)
-    if (a != b)
-      result.curvature.block(first_[b], first_[a], size_of(b), size_of(a)) =
-          result.curvature.block(first_[a], first_[b], size_of(a), size_of(b)).transpose();
+  result.curvature.triangularView<Eigen::StrictlyLower>() = result.curvature.transpose();
   return result;
 }
 

@@ -87,6 +87,7 @@ class FieldSystem {
                         double share, const ModelValueOf<numbers>& value);
   // G and g with every query's model times a weight.
   Equations assemble(const std::vector<double>& weights, const RunContext& run) const;
+  Eigen::Index size_of(std::size_t part) const { return first_[part + 1] - first_[part]; }
   // The functions' values at every query.
   Eigen::MatrixXf values_at(const Eigen::VectorXd& coefficients, const RunContext& run) const;
 
@@ -95,7 +96,7 @@ class FieldSystem {
   std::vector<Query> queries_;
   std::vector<QueryTarget> targets_;
   std::vector<Model> models_, evaluated_;
-  std::array<Eigen::MatrixXf, parts> rows_;      // phi, a row a query
+  Eigen::MatrixXf phi_;                          // a column a query, part after part
   std::array<Eigen::Index, parts + 1> first_{};  // of each part's coefficients
 };
 

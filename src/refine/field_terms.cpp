@@ -94,7 +94,7 @@ std::vector<bool> terms_to_keep(const Eigen::MatrixXd& curvature, const Eigen::V
     taken.col(pending) = column;
     if (++pending < most_pending)
       continue;
-    inverse.noalias() -= taken * taken.transpose();
+    subtract_squared(taken, inverse);
     pending = 0;
   }
   return kept;

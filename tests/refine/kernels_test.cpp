@@ -66,33 +66,47 @@ TEST(RefineKernels, CellsMultiplyAndAddBlocks) {
   }
 }
 
-TEST(RefineKernels, TransposedProductsAreThoseOfEigen) {
-  // Numbers of rows and columns that no tile or stretch divides.
-  const Eigen::MatrixXf a = Eigen::MatrixXf::Random(2053, 7), b = Eigen::MatrixXf::Random(2053, 5);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Constant(9, 5, 42);
-  kernels::multiply_transposed({a.data(), 2053, 7}, {b.data(), 2053, 5}, result.data(), 9);
-  const Eigen::MatrixXd expected = a.cast<double>().transpose() * b.cast<double>();
-  // 2053 products below one, summed in single precision in stretches of 256.
-  EXPECT_LT((result.topRows(7) - expected).cwiseAbs().maxCoeff(), 1e-4);
-  EXPECT_EQ(result(7, 0), 42);
-  const Eigen::VectorXf weights = Eigen::VectorXf::Random(2053);
-  kernels::multiply_weighted({a.data(), 2053, 7}, weights.data(), {b.data(), 2053, 5},
-                             result.data(), 9);
-  const Eigen::MatrixXd weighted =
-      a.cast<double>().transpose() * weights.cast<double>().asDiagonal() * b.cast<double>();
-  EXPECT_LT((result.topRows(7) - weighted).cwiseAbs().maxCoeff(), 1e-4);
-  EXPECT_EQ(result(7, 0), 42);
+// Numbers of rows and within them that no tile or stretch divides, and that are parts of longer
+// ones.
+template <typename Number>
+void check_products(double tolerance) {
+  using Matrix = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
+  using kernels::Products;
+  constexpr Eigen::Index depth = 2053;
+  for (const Eigen::Index count : {3, 77}) {
+    const Matrix a = Matrix::Random(count + 4, depth), b = Matrix::Random(count + 1, depth);
+    const Eigen::Matrix<Number, Eigen::Dynamic, 1> weights =
+        Eigen::Matrix<Number, Eigen::Dynamic, 1>::Random(depth);
+    const auto rows = [](const Matrix& of, Eigen::Index first, Eigen::Index numbers) {
+      return kernels::RowsOf<Number>{of.data() + first, static_cast<std::size_t>(numbers), depth,
+                                     static_cast<std::size_t>(of.rows())};
+    };
+    const Eigen::MatrixXd of_a = a.middleRows(2, count).template cast<double>(),
+                          of_b = b.middleRows(1, count).template cast<double>();
+    const Eigen::MatrixXd plain = of_a * of_b.transpose();
+    const Eigen::MatrixXd weighted =
+        of_a * weights.template cast<double>().asDiagonal() * of_b.transpose();
+    const auto stride = static_cast<std::size_t>(count + 2);
+    Eigen::MatrixXd result = Eigen::MatrixXd::Constant(count + 2, count, 42);
+    add_products(rows(a, 2, count), nullptr, rows(b, 1, count), -2, result.data(), stride,
+                 Products::all);
+    EXPECT_LT(((result.topRows(count).array() - 42) + 2 * plain.array()).abs().maxCoeff(),
+              tolerance);
+    EXPECT_TRUE((result.bottomRows(2).array() == 42).all());
+    result.setConstant(42);
+    add_products(rows(a, 2, count), weights.data(), rows(b, 1, count), 1, result.data(), stride,
+                 Products::upper);
+    for (Eigen::Index j = 0; j < count; ++j)
+      for (Eigen::Index i = 0; i <= j; ++i)
+        EXPECT_NEAR(result(i, j) - 42, weighted(i, j), tolerance);
+    EXPECT_TRUE((result.bottomRows(2).array() == 42).all());
+  }
 }
 
-TEST(RefineKernels, TransposedProductsOfDoublesAreThoseOfEigen) {
-  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(600, 7), b = Eigen::MatrixXd::Random(600, 5);
-  Eigen::MatrixXd result(7, 5);
-  // Some rows of the columns.
-  kernels::multiply_transposed(kernels::ColumnsOf<double>{a.data() + 3, 589, 7, 600},
-                               kernels::ColumnsOf<double>{b.data() + 5, 589, 5, 600}, result.data(),
-                               7);
-  const Eigen::MatrixXd expected = a.middleRows(3, 589).transpose() * b.middleRows(5, 589);
-  EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-12);
+TEST(RefineKernels, ProductsAreThoseOfEigen) {
+  check_products<double>(1e-11);
+  // 2053 products below one, summed in single precision in stretches of 256.
+  check_products<float>(1e-3);
 }
 
 }  // namespace
