@@ -87,12 +87,20 @@ FitResult ArcFit::fit(const FitRequest& fit, const LobeFrame& frame, FitWorkspac
                       std::vector<FitStep>* trace) const {
   const Request request{
       fit, frame, free_entries(frame.lobe), std::chrono::steady_clock::now(), workspace, trace};
-  sample_weighted_target(frame, coarse_.lattice, workspace.target);
-  const Descent coarse = descend(coarse_, request, moment_start(frame, workspace.target),
-                                 {FitPhase::Kind::own_start, 0});
+  int steps = 0;
+  Eigen::Matrix3d start;
+  if (fit.near) {
+    start = admissible(frame.from_matrix(*fit.near), request.free);
+  } else {
+    sample_weighted_target(frame, coarse_.lattice, workspace.target);
+    const Descent coarse = descend(coarse_, request, moment_start(frame, workspace.target),
+                                   {FitPhase::Kind::own_start, 0});
+    start = coarse.frame_matrix;
+    steps = coarse.steps;
+  }
   sample_weighted_target(frame, fine_.lattice, workspace.target);
-  const Descent fine = descend(fine_, request, coarse.frame_matrix, {FitPhase::Kind::fine, 0});
-  return {frame.to_matrix(fine.frame_matrix), fine.loss, coarse.steps + fine.steps,
+  const Descent fine = descend(fine_, request, start, {FitPhase::Kind::fine, 0});
+  return {frame.to_matrix(fine.frame_matrix), fine.loss, steps + fine.steps,
           fine.converged ? FitOutcome::converged : FitOutcome::step_limit};
 }
 

@@ -26,6 +26,10 @@ constexpr double passing_tolerance = 1e-3;
 // incumbent's: one that is worse has never overtaken it.
 constexpr double promising_share = 1.5;
 
+// Of descents from near the solution: with less damping they take back steps, and what more of them
+// would gain is noise.
+constexpr double near_damping = 0.1, near_tolerance = 3e-4;
+
 // A coarse gain below this share is within the noise of the coarse samples.
 constexpr double worthwhile_gain = 2e-3;
 
@@ -198,6 +202,12 @@ class GaussNewtonSolver::Fit {
   }
 
   FitResult fit_anew() {
+    if (request_.near && !is_extreme(frame_)) {
+      Descent near{admissible(frame_.from_matrix(*request_.near), free_)};
+      near.loss = coarse_loss(near.frame_matrix);
+      if (std::isfinite(near.loss))
+        return climbed(near);
+    }
     if (request_.starts.empty() && &ladder_ == &solver_.usual_) {
       const Descent best = best_of(coarse_descents(own_starts(), Kind::own_start));
       return std::isfinite(best.loss) ? climbed(best) : no_result(result_.steps);
@@ -442,6 +452,10 @@ class GaussNewtonSolver::Fit {
           options_of(levels[level], {folding_ ? Kind::fine_fold : Kind::fine, phase});
       if (folding_)
         options.steps *= fold_step_factor;
+      if (request_.near) {
+        options.damping = options.least_damping = near_damping;
+        options.tolerance = std::max(options.tolerance, near_tolerance);
+      }
       if (level < last && level_needed(descent) > level)
         options.tolerance = std::max(options.tolerance, passing_tolerance);
       descent = descend(levels[level], descent, options);

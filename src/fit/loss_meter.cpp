@@ -31,11 +31,12 @@ void LossMeter::set_target(const LobeFrame& frame, FitWorkspace& workspace) cons
   const bool folded = !directions_of_bins_.empty();
   sample_weighted_target(frame, folded || is_sharp(frame) ? lattice_of_sharp_ : lattice_,
                          workspace.target);
+  if (!folded)
+    ltc::set_target(workspace.target, directions_, rule_, workspace.model.xi, workspace.arc_target);
 }
 
 double LossMeter::loss(const LobeFrame& frame, const Eigen::Matrix3d& frame_matrix,
                        FitWorkspace& workspace) const {
-  ltc::set_target(workspace.target, directions_, rule_, workspace.model.xi, workspace.arc_target);
   return arc_loss(point_of_frame(frame, frame_matrix), {directions_, rule_, workspace.arc_target},
                   workspace.arcs);
 }

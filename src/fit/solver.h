@@ -77,6 +77,10 @@ struct FitRequest {
   // Folded lobes to start from beside what follows from the LTC (by solvers of folded lobes); what
   // has no lobe, or a determinant that is not positive, is left out.
   std::vector<FoldedStart> folded_starts = {};
+  // A matrix close to the solution, as interpolated between others (plain Gauss-Newton only): it is
+  // descended from alone, on fine samples from the first; but of extreme lobes, whose minima are
+  // many, it is left out.
+  std::optional<Eigen::Matrix3d> near = std::nullopt;
 };
 
 // The buffers of one fit at a time; one a thread, reused so that no fit allocates.

@@ -18,7 +18,7 @@ namespace ltc {
 
 struct BetweenFitsSettings {
   ProbeSettings probe;
-  double tolerance = 1e-2;  // of the excess in the middle of a cell
+  double tolerance = 2e-2;  // of the excess in the middle of a cell
 };
 
 struct BetweenFitsReport {

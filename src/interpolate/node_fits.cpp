@@ -19,6 +19,10 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+// A fit that ends above the loss that others tell of its lobe by this factor may have fallen into
+// another minimum.
+constexpr double led_astray = 1.3;
+
 // What a loss is taken for at least: it has a logarithm.
 constexpr double least_loss = 1e-30;
 
@@ -94,13 +98,15 @@ void NodeFits::note(std::size_t first, const FittedEntry& entry) const {
     journal_->note(0, first, entry);
 }
 
-void NodeFits::fit(std::string_view stage, const std::vector<std::size_t>& nodes) {
+void NodeFits::fit(std::string_view stage, const std::vector<std::size_t>& nodes,
+                   const std::function<NodeValues(std::size_t)>& near) {
   const std::vector<std::size_t> unknown = unknown_of(nodes);
   std::vector<FittedEntry> fitted(unknown.size());
   spread_for_each<FitWorkspacePointer>(
       stage, Spreading::moving, unknown.size(), run_, make_fit_workspace,
       [&](std::size_t i, FitWorkspacePointer& workspace) {
-        fitted[i] = fit_alone(unknown[i], *workspace);
+        const NodeValues start = near ? near(unknown[i]) : NodeValues::Constant(nan);
+        fitted[i] = fit_alone(unknown[i], *workspace, &start);
         note(unknown[i], fitted[i]);
       },
       [&](std::size_t i, auto&& take) { take(bytes_of(fitted[i])); },
@@ -109,11 +115,23 @@ void NodeFits::fit(std::string_view stage, const std::vector<std::size_t>& nodes
     known_.emplace(unknown[i], fitted[i]);
 }
 
-FittedEntry NodeFits::fit_alone(std::size_t first, FitWorkspace& workspace) const {
+FittedEntry NodeFits::fit_alone(std::size_t first, FitWorkspace& workspace,
+                                const NodeValues* near) const {
+  FitRequest request;
+  request.lobe = grid_.lobe(first);
+  request.seed = entry_seed(settings_.seed, first);
+  request.progress = run_.progress;
+  if (near && near->isFinite().all())
+    if (const Eigen::Matrix3d start = matrix_of(request.lobe, *near); start.determinant() > 0)
+      request.near = start;
   FittedEntry entry;
-  fit_entry(*solver_, {grid_.lobe(first), entry_seed(settings_.seed, first), {}, {}, run_.progress},
-            workspace, nullptr, entry);
-  return entry;
+  fit_entry(*solver_, request, workspace, nullptr, entry);
+  if (!request.near || (has_values(entry.status) && entry.loss < led_astray * loss_of(*near)))
+    return entry;
+  request.near.reset();
+  FittedEntry anew;
+  fit_entry(*solver_, request, workspace, nullptr, anew);
+  return has_values(entry.status) && entry.loss <= anew.loss ? entry : anew;
 }
 
 double NodeFits::turn_radians(std::size_t flat) const {
@@ -178,7 +196,10 @@ std::vector<double> NodeFits::excess(std::string_view stage, const std::vector<s
           compare(at, known_.at(first_of(nodes[at])), *workspace);
           return;
         }
-        fitted[i] = fit_alone(unknown[i], *workspace);
+        // Another node of the lobe has it turned.
+        const std::size_t asked = of_unknown[i].front();
+        fitted[i] = fit_alone(unknown[i], *workspace,
+                              nodes[asked] == unknown[i] ? &interpolated[asked] : nullptr);
         note(unknown[i], fitted[i]);
         for (const std::size_t at : of_unknown[i])
           compare(at, fitted[i], *workspace);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the ltcfit authors
-// Fits of some nodes of a grid, each the same as in a table of which every node is fitted, and what
-// of them is interpolated.
+// Fits of some nodes of a grid, and what of them is interpolated. Those without values to start
+// from are the same as in a table of which every node is fitted.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <unordered_map>
@@ -33,8 +34,10 @@ class NodeFits {
   NodeFits(const Grid& grid, const FitSettings& settings, const RunContext& run,
            FitJournal* journal);
 
-  // Fits the lobes of these nodes that are not known yet. Throws Interrupted.
-  void fit(std::string_view stage, const std::vector<std::size_t>& nodes);
+  // Fits the lobes of these nodes that are not known yet; from values near theirs, where there is
+  // what tells them of a lobe's first node. Throws Interrupted.
+  void fit(std::string_view stage, const std::vector<std::size_t>& nodes,
+           const std::function<NodeValues(std::size_t)>& near = {});
   std::size_t count() const { return known_.size(); }
 
   // The node whose fit is that of another, and by how much that has to be turned about the normal.
@@ -47,12 +50,14 @@ class NodeFits {
   // NaN where its fit failed.
   NodeValues values_at(std::size_t flat) const;
 
-  // One more fit, which is not kept. From any thread.
-  FittedEntry fit_alone(std::size_t first, FitWorkspace& workspace) const;
+  // One more fit, which is not kept; from near values, where these are finite. From any thread.
+  FittedEntry fit_alone(std::size_t first, FitWorkspace& workspace,
+                        const NodeValues* near = nullptr) const;
 
   // By how much the loss of interpolated values exceeds that of the node's own fit, as a share of
   // it, on samples that are not those of the fit; one a node, of which those that are not known are
-  // fitted. NaN where there is no fit. Throws Interrupted.
+  // fitted, from these values if the node is its lobe's first. NaN where there is no fit. Throws
+  // Interrupted.
   std::vector<double> excess(std::string_view stage, const std::vector<std::size_t>& nodes,
                              const std::vector<NodeValues>& interpolated);
 

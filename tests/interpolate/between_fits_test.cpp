@@ -11,6 +11,7 @@
 #include "align/align.h"
 #include "core/error.h"
 #include "fit/fit_journal.h"
+#include "interpolate/node_fits.h"
 #include "judge/held_out.h"
 
 namespace ltc {
@@ -75,34 +76,41 @@ std::size_t count(const std::vector<FittedEntry>& entries, Status status) {
   return static_cast<std::size_t>(std::ranges::count(entries, status, &FittedEntry::status));
 }
 
-TEST(BetweenFits, FitsFewAndTheseAsEver) {
+// Loss of one entry over that of a fit of its own.
+double over_own_fit(const std::vector<FittedEntry>& entries, std::size_t flat) {
+  HeldOutJudge judge(4096, 32);
+  const PairJudgement judgement = judge.judge_pair(grid.lobe(flat), LtcLobe(entries[flat].matrix),
+                                                   LtcLobe(own_fits()[flat].matrix));
+  return judgement.loss_a / judgement.loss_b;
+}
+
+// Fits of so few samples are themselves 2 % from the best.
+void expect_as_good_as_own_fits(const std::vector<FittedEntry>& entries, Status status) {
+  double sum = 0;
+  std::size_t judged = 0;
+  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
+    if (entries[flat].status != status)
+      continue;
+    const double ratio = over_own_fit(entries, flat);
+    EXPECT_LT(ratio, 1.02) << flat;
+    EXPECT_NEAR(entries[flat].loss / own_fits()[flat].loss, 1, 0.1) << flat;
+    sum += ratio;
+    ++judged;
+  }
+  ASSERT_GT(judged, 0u);
+  EXPECT_LT(sum / static_cast<double>(judged), 1.003);
+}
+
+TEST(BetweenFits, FitsFew) {
   const auto& [entries, report] = filled();
   EXPECT_LT(report.fits, EqualLobes(grid).count() * 2 / 3);
   EXPECT_GT(count(entries, Status::interpolated), grid.size() / 5);
   EXPECT_EQ(count(entries, Status::copied), count(own_fits(), Status::copied));
-  for (std::size_t flat = 0; flat < entries.size(); ++flat)
-    if (entries[flat].status == Status::fitted) {
-      EXPECT_TRUE(same_bits(entries[flat], own_fits()[flat])) << flat;
-    }
+  expect_as_good_as_own_fits(entries, Status::fitted);
 }
 
-// Fits of so few samples are themselves 2 % from the best.
 TEST(BetweenFits, WhatLiesBetweenIsAsGoodAsFitsOfItsOwn) {
-  HeldOutJudge judge(4096, 32);
-  double sum = 0;
-  std::size_t judged = 0;
-  for (std::size_t flat = 0; flat < grid.size(); ++flat) {
-    const FittedEntry& entry = filled().entries[flat];
-    if (entry.status != Status::interpolated)
-      continue;
-    const PairJudgement judgement =
-        judge.judge_pair(grid.lobe(flat), LtcLobe(entry.matrix), LtcLobe(own_fits()[flat].matrix));
-    EXPECT_LT(judgement.loss_a / judgement.loss_b, 1.02) << flat;
-    EXPECT_NEAR(entry.loss / own_fits()[flat].loss, 1, 0.1) << flat;
-    sum += judgement.loss_a / judgement.loss_b;
-    ++judged;
-  }
-  EXPECT_LT(sum / static_cast<double>(judged), 1.003);
+  expect_as_good_as_own_fits(filled().entries, Status::interpolated);
 }
 
 TEST(BetweenFits, SymmetryStands) {
@@ -128,7 +136,27 @@ TEST(BetweenFits, CellsThatFailAreFitted) {
   const Filled all = fill({2}, nullptr, strict);
   EXPECT_EQ(count(all.entries, Status::interpolated), 0u);
   EXPECT_EQ(all.report.fits, EqualLobes(grid).count());
-  EXPECT_TRUE(same_bits(all.entries, own_fits()));
+  expect_as_good_as_own_fits(all.entries, Status::fitted);
+}
+
+TEST(NodeFits, StartFromWhatIsNear) {
+  const FitSettings settings = quick_fit();
+  NodeFits fits(grid, settings, {1}, nullptr);
+  const std::size_t flat = grid.flat({0, 0, 30, 1});
+  const FitWorkspacePointer workspace = make_fit_workspace();
+  const FittedEntry own = fits.fit_alone(flat, *workspace);
+  const NodeValues values = values_of(grid.lobe(flat), align(own.matrix), own.loss);
+  NodeValues near = values;
+  near[0] *= 1.02;
+  const FittedEntry from_near = fits.fit_alone(flat, *workspace, &near);
+  EXPECT_LT(from_near.steps, own.steps / 2);
+  EXPECT_NEAR(from_near.loss / own.loss, 1, 2e-3);
+  // What ends far above the loss that others tell of is fitted anew.
+  near[9] -= 1;
+  EXPECT_TRUE(same_bits(fits.fit_alone(flat, *workspace, &near), own) ||
+              fits.fit_alone(flat, *workspace, &near).loss < own.loss);
+  near = -values;
+  EXPECT_TRUE(same_bits(fits.fit_alone(flat, *workspace, &near), own));
 }
 
 TEST(BetweenFits, SameBitsWithAnyNumberOfThreads) {
