@@ -159,6 +159,7 @@ class CharlieModel final : public LobeModel {
     return Eigen::Vector3d(width, width, 1).asDiagonal();
   }
   bool about_mirror() const override { return false; }
+  bool along_horizon() const override { return true; }
   bool conserves_energy() const override { return false; }
   double least_alpha() const override { return least_sheen_alpha; }
 

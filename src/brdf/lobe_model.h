@@ -67,6 +67,11 @@ class LobeModel {
   // fields, folds and the reading of others' tables make sense of them.
   virtual bool about_mirror() const { return true; }
 
+  // Whether lobes lie along the horizon, seen from wherever, as those of sheen do. They are fitted by
+  // matrices with a third row (0, 0, z), which leave the hemisphere what it is: the free fit puts a
+  // quarter of such a lobe below the horizon, where no light is.
+  virtual bool along_horizon() const { return false; }
+
   // Whether no lobe reflects more light than it gets, so that amplitudes are at most 1.
   virtual bool conserves_energy() const { return true; }
 
