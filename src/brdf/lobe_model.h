@@ -8,6 +8,7 @@
 // planes x = 0 and y = 0, and where alpha_x = alpha_y, they turn with it about z.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -67,10 +68,10 @@ class LobeModel {
   // fields, folds and the reading of others' tables make sense of them.
   virtual bool about_mirror() const { return true; }
 
-  // Whether lobes lie along the horizon, seen from wherever, as those of sheen do. They are fitted by
-  // matrices with a third row (0, 0, z), which leave the hemisphere what it is: the free fit puts a
-  // quarter of such a lobe below the horizon, where no light is.
-  virtual bool along_horizon() const { return false; }
+  // By how much fits may tilt the horizon, which is what they put below it and lights lose: the most
+  // of |(M20, M21)|/|M22|, in the frame. A lobe along the horizon, seen from above, is as near
+  // beyond it as before it for the sliced Wasserstein distance.
+  virtual double most_tilt() const { return std::numeric_limits<double>::infinity(); }
 
   // Whether no lobe reflects more light than it gets, so that amplitudes are at most 1.
   virtual bool conserves_energy() const { return true; }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "brdf/lobe_model.h"
 #include "core/stopwatch.h"
 
 namespace ltc {
@@ -189,9 +190,26 @@ void evaluate_at(const DescentTask& task, const Place& at, std::size_t direction
   value = bent(of_columns, at.p, at.bend);
 }
 
-// Which numbers a step from here may move: a g at its bound only away from it.
-std::array<bool, 9> free_numbers(const DescentTask& task, const Place&, const ModelValue&) {
-  return task.free;
+// P with its horizon tilted no further than its model allows (LobeModel::most_tilt).
+void limit_tilt(const LobeFrame& frame, Eigen::Matrix3d& p) {
+  const double tilt = std::hypot(p(2, 0), p(2, 1));
+  if (const double most = frame.lobe.model->most_tilt() * std::abs(p(2, 2)); tilt > most)
+    p.row(2).head<2>() *= most / tilt;
+}
+bool pulls_at_limit(const LobeFrame& frame, const Eigen::Matrix3d& p, const Vector9& gradient) {
+  constexpr double almost = 1 - 1e-9;
+  const double most = frame.lobe.model->most_tilt();
+  return std::hypot(p(2, 0), p(2, 1)) >= almost * most * std::abs(p(2, 2)) &&
+         gradient[6] * p(2, 0) + gradient[7] * p(2, 1) < 0;
+}
+
+// Which numbers a step from here may move: a tilt or a g at its bound only away from it.
+std::array<bool, 9> free_numbers(const DescentTask& task, const Place& at,
+                                 const ModelValue& value) {
+  std::array<bool, 9> free = task.free;
+  if (pulls_at_limit(task.frame, at.p, value.gradient))
+    free[6] = free[7] = false;
+  return free;
 }
 std::array<bool, 11> free_numbers(const DescentTask& task, const Place& at,
                                   const BentModelValue& value) {
@@ -216,6 +234,7 @@ Place moved(const DescentTask& task, const Place& from, const Numbers<numbers>& 
     to.p.col(1) = -to.p.col(1);
     to.bend[0] = -to.bend[0];
   }
+  limit_tilt(task.frame, to.p);
   to.p /= to.p.col(2).norm();
   return to;
 }
@@ -227,6 +246,7 @@ Descent descend(const DescentTask& task, const DescentOptions& options, ModelWor
   const double spread = task.spread();
   Descent best;
   Place place{task.start / task.start.col(2).norm(), task.fold ? task.fold->start : Bend::Zero()};
+  limit_tilt(frame, place.p);
   ModelValueOf<numbers> value, trial_value;
   evaluate_at(task, place, options.direction_stride, smoothing_share * spread, workspace, value);
   best.loss = value.loss;

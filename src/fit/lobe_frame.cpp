@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "fit/lobe_frame.h"
 
-#include "brdf/lobe_model.h"
 #include "table/storage.h"
 #include "table/symmetry.h"
 
@@ -30,9 +29,6 @@ FreeEntries free_entries(const Lobe& lobe) {
   FreeEntries free;
   for (int entry = 0; entry < 9; ++entry)
     free[entry] = !zeros(entry / 3, entry % 3);
-  // In the frame of the surface, which such lobes are fitted in.
-  if (lobe.model->along_horizon())
-    free[6] = free[7] = false;
   return free;
 }
 

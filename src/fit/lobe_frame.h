@@ -32,8 +32,8 @@ struct LobeFrame {
   Eigen::Matrix3d first_order;  // P0
 };
 
-// Which entries of M (and of P alike) symmetry leaves free, equation (16) of Aakash et al. 2022, and
-// what keeps lobes along the horizon above it: true where an entry may differ from zero. Row-major.
+// Which entries of M (and of P alike) symmetry leaves free, equation (16) of Aakash et al. 2022:
+// true where an entry may differ from zero. Row-major.
 using FreeEntries = std::array<bool, 9>;
 FreeEntries free_entries(const Lobe& lobe);
 
