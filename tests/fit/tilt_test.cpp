@@ -67,8 +67,9 @@ TEST(Tilt, OfLobesThatLieOtherwiseIsWhatItWas) {
   const Fitted bound = fitted(lobe);
   EXPECT_LT(bound.tilt, 0.19);
   lobe.model = &free;
-  EXPECT_EQ(fitted(lobe).tilt, bound.tilt);
-  EXPECT_EQ(fitted(lobe).error, bound.error);
+  // From another start, which the bound limits: to what descents leave of the last gains.
+  EXPECT_NEAR(fitted(lobe).tilt, bound.tilt, 2e-3);
+  EXPECT_NEAR(fitted(lobe).error / bound.error, 1, 0.02);
 }
 
 }  // namespace
