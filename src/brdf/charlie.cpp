@@ -29,10 +29,11 @@ double fitted_shadowing(double alpha, double x) {
 // about alpha. Within a cell a density that falls by its exponential is at most some times its
 // mean.
 constexpr std::size_t rows = 32, columns = 40;
+constexpr double room = 1.5;  // of weights within a cell over those at its corners
+
 // By what lobes fitted for lights alone have, seen from above: hardly more at the least roughness,
 // and wide lobes stay below it by themselves.
 constexpr double most_sheen_tilt = 0.2;
-constexpr double room = 1.5;  // of weights within a cell over those at its corners
 
 }  // namespace
 

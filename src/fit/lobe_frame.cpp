@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the ltcfit authors
 #include "fit/lobe_frame.h"
 
+#include "brdf/lobe_model.h"
 #include "table/storage.h"
 #include "table/symmetry.h"
 

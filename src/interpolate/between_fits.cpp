@@ -66,9 +66,12 @@ class Filling {
     Lattice sparse(grid_, some);
     fits_.fit("fit", nodes_of(sparse));
     read_values(sparse);
-    fits_.fit("fit", nodes_of(lattice),
-              [&](std::size_t first) { return sparse.at(grid_.indices(first)); });
+    fit_near(sparse, nodes_of(lattice));
     read_values(lattice);
+  }
+  // From what a lattice tells of their lobes.
+  void fit_near(const Lattice& known, const std::vector<std::size_t>& nodes) {
+    fits_.fit("fit", nodes, [&](std::size_t first) { return known.at(grid_.indices(first)); });
   }
   static std::vector<std::size_t> nodes_of(const Lattice& lattice) {
     std::vector<std::size_t> nodes(lattice.size());
@@ -107,7 +110,7 @@ class Filling {
       if (failing.any_at(at))
         nodes.push_back(flat(at));
     });
-    fits_.fit("fit", nodes, [&](std::size_t first) { return coarse.at(grid_.indices(first)); });
+    fit_near(coarse, nodes);
   }
 
   template <typename Work>

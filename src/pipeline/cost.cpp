@@ -24,8 +24,7 @@ namespace {
 std::vector<bool> values_behind(const std::vector<bool>& needed, const RefineContext& context) {
   std::vector<bool> present = needed;
   for (std::size_t flat = 0; flat < present.size(); ++flat)
-    present[flat] =
-        present[flat] || (context.existing && has_values(context.existing->status[flat]));
+    present[flat] = present[flat] || context.has_existing(flat);
   return present;
 }
 

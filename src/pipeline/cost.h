@@ -17,6 +17,11 @@ struct RefineContext {
   std::vector<QueryRange> asked;    // what it serves; the config's range where there are none
   const Table* existing = nullptr;  // a table of the same grid that is extended: its entries take
                                     // part in look-ups and stay as they are
+
+  // Whether that table has values at a node.
+  bool has_existing(std::size_t flat) const {
+    return existing && has_values(existing->status[flat]);
+  }
 };
 
 // Whether the table is made by interpolate/between_fits.h: all of it, unrefined, by a plain

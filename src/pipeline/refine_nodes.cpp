@@ -17,9 +17,6 @@ void get_node(const Table& table, std::size_t flat, Eigen::Matrix3d& node) {
 void set_node(const Eigen::Matrix3d& node, std::size_t flat, Table& table) {
   table.set_stored(flat, normalise(table.storage, node));
 }
-bool has_values_in(const Table* table, std::size_t flat) {
-  return table && has_values(table->status[flat]);
-}
 
 // Their losses, of those that are `chosen`, after their matrices were made otherwise than by fits
 // of their own.
@@ -45,7 +42,7 @@ RefineReport refine_nodes(const Config& config, const RefineContext& context,
   std::vector<bool> present(count), movable(count);
   for (std::size_t flat = 0; flat < count; ++flat) {
     const bool made = has_values(table.status[flat]);
-    const bool kept = !made && has_values_in(context.existing, flat);
+    const bool kept = !made && context.has_existing(flat);
     get_node(kept ? *context.existing : table, flat, stored[flat]);
     present[flat] = made || kept;
     movable[flat] = made && !(config.refine.keep_smoothest && is_smoothest(table.grid, flat));
